@@ -2,6 +2,7 @@
 
 use crate::common::{edited, refused_beside, vibrissa};
 use rod_files::{Scan, Scene};
+use vibrissa::rod::Reactions;
 
 /// The scene with another table `[rod]`.
 fn with_rod(rod: &str) -> String {
@@ -9,6 +10,8 @@ fn with_rod(rod: &str) -> String {
 }
 
 const WIRE: &str = "length = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n";
+const TABLE: &str = "length = 0.1\nyoungs_modulus = 206e9\n\
+                     diameter = [[0, 0.5e-3], [0.04, 0.4e-3], [0.07, 0.45e-3], [0.1, 0.1e-3]]\n";
 const TWO: &str = "length = 0.1\n[[rod.section]]\nlength = 0.06\nbending_stiffness = 6e-4\n\
                    [[rod.section]]\nlength = 0.04\ndiameter = 0.3e-3\nyoungs_modulus = 206e9\nnatural_curvature = -3.0\n";
 
@@ -40,6 +43,34 @@ fn each_mistake_has_its_place() {
         (
             format!("{WIRE}natural_curvature = [[0.05, 1.0], [0.01, 2.0]]\n"),
             ["rod.natural_curvature: ", "has the arc length 0.01 m, expected more than that of the point before"],
+        ),
+        (
+            TABLE.replace("[0.04, 0.4e-3]", "[0.04, 0]"),
+            ["scene.toml:4:12: rod.diameter: ", "diameter of point 2 is 0.0 m, expected a positive, finite number"],
+        ),
+        (
+            TABLE.replace("[0.1, 0.1e-3]", "[0.09, 0.1e-3]"),
+            ["rod.diameter: ", "point 4 of diameter has the arc length 0.09 m, expected 0.1 m, the length of the rod"],
+        ),
+        (
+            format!("{TABLE}tip_diameter = 1e-4\n"),
+            ["scene.toml:5:16: rod.tip_diameter: ", "given beside the diameters"],
+        ),
+        (
+            TABLE.replace("youngs_modulus = 206e9\n", ""),
+            ["rod: ", "missing field `youngs_modulus`, expected bending_stiffness, or diameter and youngs_modulus"],
+        ),
+        (
+            TABLE.replace("youngs_modulus = 206e9", "bending_stiffness = 1e-3"),
+            ["rod.bending_stiffness: ", "expected either it or those two"],
+        ),
+        (
+            TABLE.replace("[0.1, 0.1e-3]", "[0.1]"),
+            ["rod.diameter: ", "or a list of points: [[s, diameter], ...] in m and m"],
+        ),
+        (
+            WIRE.replace("0.5e-3", "\"0.5e-3\""),
+            ["rod.diameter: ", "the value is the text \"0.5e-3\", expected a number (m), or a list of points"],
         ),
         (format!("{WIRE}natural_curvature = []\n"), ["rod.natural_curvature: ", "number of points"]),
         (format!("{WIRE}natural_curvature = nan\n"), ["rod.natural_curvature: ", "NaN"]),
@@ -98,6 +129,9 @@ fn a_rod_of_each_kind_is_swept() {
         format!("{WIRE}natural_curvature = 5\n"),
         format!("{WIRE}tip_diameter = 0.2e-3\nnatural_curvature = [[0.0, 0.0], [0.05, 3.0], [0.1, 8.0]]\n"),
         TWO.into(),
+        TABLE.into(),
+        // with the thin tip it would wrap around the contour
+        format!("{}natural_curvature = [[0.0, 0.0], [0.05, 3.0], [0.1, 8.0]]\n", TABLE.replace("0.1e-3]]", "0.2e-3]]")),
         format!("{WIRE}[clamp]\nstiffness_phi = 0.2\n"),
         format!("{TWO}[clamp]\nstiffness_x = 500\nstiffness_y = 300\nstiffness_phi = 0.2\n"),
     ] {
@@ -128,6 +162,37 @@ fn a_section_a_cone_without_taper_and_the_wire_are_the_same() {
         assert!(one.kind == other.kind && (one.pose().x - other.pose().x).abs() < 1e-12);
         assert!((one.before.reactions.f0x - other.before.reactions.f0x).abs() < 1e-11);
     }
+}
+
+/// Diameters in a list are those of `diameter` and `tip_diameter`, and a list on a straight line is too.
+#[test]
+fn a_list_of_diameters_is_the_cone() {
+    let states = |rod: &str| {
+        let scene = Scene::parse("scene.toml".as_ref(), &with_rod(rod)).unwrap();
+        Scan::run(scene).unwrap().outcome.states
+    };
+    let list = |points: &str| format!("length = 0.1\ndiameter = [{points}]\nyoungs_modulus = 206e9\n");
+    let cone = states(&format!("{WIRE}tip_diameter = 0.1e-3\n"));
+    assert_eq!(states(&list("[0, 0.5e-3], [0.1, 0.1e-3]")), cone);
+    let on_a_line: Vec<String> =
+        (0..=40).map(|k| format!("[{}, {}]", 0.0025 * f64::from(k), 0.5e-3 - 1e-5 * f64::from(k))).collect();
+    let many = states(&list(&on_a_line.join(", ")));
+    assert!(many.len() == cone.len() && cone.iter().any(|state| state.max_stress > Some(1e8)));
+    for (one, other) in many.iter().zip(&cone) {
+        let alike = |one: f64, other: f64| (one - other).abs() < 1e-10 * (1.0 + other.abs());
+        let Reactions { f0x, f0y, m0z } = one.reactions;
+        let felt = [(f0x, other.reactions.f0x), (f0y, other.reactions.f0y), (m0z, other.reactions.m0z)];
+        assert!(felt.into_iter().all(|(one, other)| alike(one, other)), "{one:?} {other:?}");
+        assert!(alike(one.max_stress.unwrap() / 1e9, other.max_stress.unwrap() / 1e9), "{one:?} {other:?}");
+    }
+}
+
+#[test]
+fn implausible_diameters_are_told() {
+    let scene = with_rod(&TABLE.replace("0.45e-3", "0.6e-7").replace("0.5e-3", "1e-6").replace("0.4e-3", "1e-6"));
+    let scene = Scene::parse("scene.toml".as_ref(), &scene.replace("0.1e-3", "1e-6")).unwrap();
+    let warnings = &scene.warnings;
+    assert!(warnings.len() == 1 && warnings[0].contains("rod.diameter: diameter is 0.00000006 m"), "{warnings:?}");
 }
 
 /// A table without springs is no clamp that gives way, and the command gives the base where the springs let it go.

@@ -12,21 +12,24 @@ use toml::{Table, Value};
 use vibrissa::Rod;
 use vibrissa::rod::{AnyRod, ClampSpec, CurvatureSpec, RodFault, RodSpec, SectionSpec, StiffnessSpec};
 
-/// The curvature at rest: a number (1/m), or points of arc length (m) and curvature (1/m).
+/// A quantity along the rod: a number, or points of arc length (m) and value.
 #[derive(Clone, PartialEq, IntoPyObject)]
-pub enum Curvature {
+pub enum Along {
     Constant(f64),
     Points(Vec<[f64; 2]>),
 }
 
-impl<'py> FromPyObject<'py> for Curvature {
-    fn extract_bound(object: &Bound<'py, PyAny>) -> PyResult<Self> {
-        if let Ok(curvature) = object.extract() {
-            return Ok(Self::Constant(curvature));
+impl Along {
+    fn extract(object: &Bound<'_, PyAny>, name: &str, unit: &str) -> PyResult<Option<Self>> {
+        if object.is_none() {
+            return Ok(None);
+        }
+        if let Ok(number) = object.extract() {
+            return Ok(Some(Self::Constant(number)));
         }
         let wrong = |found: &[usize]| {
             errors::value(format!(
-                "natural_curvature has the shape {found:?}, expected a number (1/m), or points of shape (n, 2): m, 1/m"
+                "{name} has the shape {found:?}, expected a number ({unit}), or points of shape (n, 2): m, {unit}"
             ))
         };
         let numbers: Floats<'_> = object.extract()?;
@@ -35,32 +38,51 @@ impl<'py> FromPyObject<'py> for Curvature {
         if points.ncols() != 2 {
             return Err(wrong(numbers.shape()));
         }
-        Ok(Self::Points(points.rows().into_iter().map(|row| [row[0], row[1]]).collect()))
+        Ok(Some(Self::Points(points.rows().into_iter().map(|row| [row[0], row[1]]).collect())))
     }
-}
 
-impl From<&Curvature> for CurvatureSpec {
-    fn from(curvature: &Curvature) -> Self {
-        match curvature {
-            Curvature::Constant(curvature) => Self::Constant(*curvature),
-            Curvature::Points(points) => Self::Points(points.clone()),
+    fn curvature_spec(&self) -> CurvatureSpec {
+        match self {
+            Self::Constant(curvature) => CurvatureSpec::Constant(*curvature),
+            Self::Points(points) => CurvatureSpec::Points(points.clone()),
         }
     }
-}
 
-impl Curvature {
+    fn number(&self) -> Option<f64> {
+        if let Self::Constant(number) = self { Some(*number) } else { None }
+    }
+
+    fn points(&self) -> Option<&Vec<[f64; 2]>> {
+        if let Self::Points(points) = self { Some(points) } else { None }
+    }
+
     fn value(&self) -> Value {
         match self {
-            Self::Constant(curvature) => Value::Float(*curvature),
+            Self::Constant(number) => Value::Float(*number),
             Self::Points(points) => Value::Array(points.iter().copied().map(point).collect()),
         }
     }
 
+    /// As Python writes it.
+    fn representation(&self) -> String {
+        match self {
+            Self::Constant(number) => format!("{number:?}"),
+            Self::Points(points) => format!("{points:?}"),
+        }
+    }
+
     /// Of a scene file.
-    fn of(table: &Table) -> Option<Self> {
-        let field = "natural_curvature";
+    fn of(table: &Table, field: &str) -> Option<Self> {
         number(table, field).map(Self::Constant).or_else(|| points(table, field).map(Self::Points))
     }
+}
+
+fn curvature(object: &Bound<'_, PyAny>) -> PyResult<Option<Along>> {
+    Along::extract(object, "natural_curvature", "1/m")
+}
+
+fn diameter(object: &Bound<'_, PyAny>) -> PyResult<Option<Along>> {
+    Along::extract(object, "diameter", "m")
 }
 
 /// How stiff a rod or section is, as it is written: the stiffness, or diameter and Young's modulus.
@@ -197,8 +219,8 @@ fn representation(what: &str, length: f64, stiffness: Stiffness) -> String {
 
 /// An inextensible, unshearable, linear elastic rod.
 ///
-/// A uniform one has ``bending_stiffness``, or ``diameter`` and ``youngs_modulus`` of a round wire. With ``tip_diameter`` the wire
-/// tapers; ``sections`` are parts of constant stiffness; ``natural_curvature`` bends it at rest.
+/// A uniform one has ``bending_stiffness``, or ``diameter`` and ``youngs_modulus`` of a round wire. With ``tip_diameter``, or points of
+/// ``diameter``, the wire tapers; ``sections`` are parts of constant stiffness; ``natural_curvature`` bends it at rest.
 ///
 /// Parameters
 /// ----------
@@ -206,8 +228,9 @@ fn representation(what: &str, length: f64, stiffness: Stiffness) -> String {
 ///     Length in m.
 /// bending_stiffness : float, optional
 ///     Bending stiffness E I in N m^2.
-/// diameter : float, optional
-///     Diameter of a round wire in m, at the clamp; E I = E pi d^4 / 64.
+/// diameter : float or array_like, optional
+///     Diameter of a round wire in m, at the clamp; E I = E pi d^4 / 64. Or points of shape (n, 2): arc length from the clamp (m) and diameter
+///     (m), from 0 to ``length``, with straight lines between them; then without ``tip_diameter``.
 /// youngs_modulus : float, optional
 ///     Young's modulus in Pa.
 /// tip_diameter : float, optional
@@ -247,8 +270,10 @@ pub struct PyRod {
     pub rod: AnyRod,
     length: f64,
     stiffness: Stiffness,
+    /// Where it is points, `stiffness` has none.
+    diameter: Option<Along>,
     tip_diameter: Option<f64>,
-    natural_curvature: Option<Curvature>,
+    natural_curvature: Option<Along>,
     sections: Vec<PySection>,
     yield_stress: Option<f64>,
     clamp: Option<PyElasticClamp>,
@@ -258,6 +283,7 @@ impl PartialEq for PyRod {
     fn eq(&self, other: &Self) -> bool {
         let numbers = |rod: &Self| (rod.length, rod.stiffness, rod.tip_diameter, rod.yield_stress);
         numbers(self) == numbers(other)
+            && self.diameter == other.diameter
             && self.natural_curvature == other.natural_curvature
             && self.sections == other.sections
             && self.clamp == other.clamp
@@ -271,11 +297,12 @@ impl PyRod {
         let table = tables.get("rod").and_then(Value::as_table).unwrap_or(&none);
         let clamp = tables.get("clamp").and_then(Value::as_table).map(PyElasticClamp::of_table).transpose()?;
         let field = |name: &str| number(table, name);
-        let [stiffness, diameter, modulus] = STIFFNESS.map(field);
+        let [stiffness, _, modulus] = STIFFNESS.map(field);
         let tables = table.get("section").and_then(Value::as_array).into_iter().flatten();
         let sections: Vec<_> = tables.filter_map(Value::as_table).map(PySection::of).collect::<PyResult<_>>()?;
         let sections = (!sections.is_empty()).then_some(sections);
-        let (length, curvature) = (field("length").unwrap_or(f64::NAN), Curvature::of(table));
+        let (length, diameter) = (field("length").unwrap_or(f64::NAN), Along::of(table, "diameter"));
+        let curvature = Along::of(table, "natural_curvature");
         let (tip, stress) = (field("tip_diameter"), field("yield_stress"));
         Self::new(length, stiffness, diameter, modulus, tip, curvature, sections, stress, clamp)
     }
@@ -290,8 +317,8 @@ impl PyRod {
         let mut table = Table::from_iter([("length".to_owned(), Value::Float(self.length))]);
         insert_numbers(&mut table, &STIFFNESS, &self.stiffness);
         insert_numbers(&mut table, &["tip_diameter", "yield_stress"], &[self.tip_diameter, self.yield_stress]);
-        if let Some(curvature) = &self.natural_curvature {
-            table.insert("natural_curvature".to_owned(), curvature.value());
+        for (name, along) in [("diameter", &self.diameter), ("natural_curvature", &self.natural_curvature)] {
+            table.extend(along.as_ref().map(|along| (name.to_owned(), along.value())));
         }
         if !self.sections.is_empty() {
             let sections = self.sections.iter().map(|section| Value::Table(section.table())).collect();
@@ -323,26 +350,28 @@ impl PyRod {
     pub fn new(
         length: f64,
         bending_stiffness: Option<f64>,
-        diameter: Option<f64>,
+        #[pyo3(from_py_with = diameter)] diameter: Option<Along>,
         youngs_modulus: Option<f64>,
         tip_diameter: Option<f64>,
-        natural_curvature: Option<Curvature>,
+        #[pyo3(from_py_with = curvature)] natural_curvature: Option<Along>,
         sections: Option<Vec<PySection>>,
         yield_stress: Option<f64>,
         clamp: Option<PyElasticClamp>,
     ) -> PyResult<Self> {
-        let (sections, stiffness) = (sections.unwrap_or_default(), [bending_stiffness, diameter, youngs_modulus]);
+        let of_base = diameter.as_ref().and_then(Along::number);
+        let (sections, stiffness) = (sections.unwrap_or_default(), [bending_stiffness, of_base, youngs_modulus]);
         let spec = RodSpec {
             length,
             stiffness: stiffness_spec(stiffness),
             tip_diameter,
-            natural_curvature: natural_curvature.as_ref().map(CurvatureSpec::from),
+            diameters: diameter.as_ref().and_then(Along::points).cloned(),
+            natural_curvature: natural_curvature.as_ref().map(Along::curvature_spec),
             sections: sections.iter().map(PySection::spec).collect(),
             yield_stress,
             clamp: ClampSpec::Springs(clamp.as_ref().map(PyElasticClamp::clamp).transpose()?.unwrap_or_default()),
         };
         let rod = spec.build().map_err(wrong)?;
-        Ok(Self { rod, length, stiffness, tip_diameter, natural_curvature, sections, yield_stress, clamp })
+        Ok(Self { rod, length, stiffness, diameter, tip_diameter, natural_curvature, sections, yield_stress, clamp })
     }
 
     /// Length in m.
@@ -357,10 +386,10 @@ impl PyRod {
         self.rod.at_clamp().bending_stiffness()
     }
 
-    /// Diameter of the wire in m, at the clamp; None where it is not known.
+    /// Diameter of the wire in m, at the clamp, or points of arc length (m) and diameter (m); None where it is not known.
     #[getter]
-    fn diameter(&self) -> Option<f64> {
-        self.stiffness[1]
+    fn diameter(&self) -> Option<Along> {
+        self.diameter.clone()
     }
 
     /// Young's modulus in Pa; None where it is not known.
@@ -377,7 +406,7 @@ impl PyRod {
 
     /// Curvature at rest: 1/m, or points of arc length (m) and curvature (1/m); None where it is not given.
     #[getter]
-    fn natural_curvature(&self) -> Option<Curvature> {
+    fn natural_curvature(&self) -> Option<Along> {
         self.natural_curvature.clone()
     }
 
@@ -410,10 +439,10 @@ impl PyRod {
         if let Some(tip) = self.tip_diameter {
             text += &format!(", tip_diameter={tip:?}");
         }
-        match &self.natural_curvature {
-            None => {}
-            Some(Curvature::Constant(curvature)) => text += &format!(", natural_curvature={curvature:?}"),
-            Some(Curvature::Points(points)) => text += &format!(", natural_curvature={points:?}"),
+        // a single diameter is there already
+        let diameters = self.diameter.as_ref().filter(|diameter| diameter.points().is_some());
+        for (name, along) in [("diameter", diameters), ("natural_curvature", self.natural_curvature.as_ref())] {
+            text += &along.map_or_else(String::new, |along| format!(", {name}={}", along.representation()));
         }
         if !self.sections.is_empty() {
             let sections: Vec<_> = self.sections.iter().map(PySection::__repr__).collect();
@@ -437,6 +466,7 @@ impl PyRod {
             ("yield_stress", self.yield_stress),
         ]);
         let arguments = numbers.into_py_dict(py)?;
+        arguments.set_item("diameter", self.diameter.clone())?;
         arguments.set_item("natural_curvature", self.natural_curvature.clone())?;
         arguments.set_item("clamp", self.clamp.clone())?;
         arguments.set_item("sections", (!self.sections.is_empty()).then(|| self.sections.clone()))?;

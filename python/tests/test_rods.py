@@ -13,6 +13,7 @@ from conftest import SCENES
 import vibrissa
 
 TAPERED = vibrissa.Rod(0.1, diameter=1e-3, tip_diameter=2e-4, youngs_modulus=3e9)
+DIAMETERS = vibrissa.Rod(0.1, diameter=np.array([[0.0, 1e-3], [0.03, 0.8e-3], [0.06, 0.9e-3], [0.1, 2e-4]]), youngs_modulus=3e9)
 BENT = vibrissa.Rod(0.1, 2e-3, natural_curvature=4.0)
 MEASURED = vibrissa.Rod(
     0.1,
@@ -35,8 +36,8 @@ PATH = vibrissa.ClampPath((0.06, 0.0, math.pi / 2), (-0.02, 0.0, math.pi / 2))
 
 @pytest.mark.parametrize(
     "rod",
-    [TAPERED, BENT, MEASURED, SECTIONS, SOFT, TAPERED_SOFT],
-    ids=["tapered", "bent", "measured", "sections", "soft", "tapered-soft"],
+    [TAPERED, DIAMETERS, BENT, MEASURED, SECTIONS, SOFT, TAPERED_SOFT],
+    ids=["tapered", "diameters", "bent", "measured", "sections", "soft", "tapered-soft"],
 )
 class TestAnyRod:
     def test_is_the_same_after_pickling_and_from_its_text(self, rod: vibrissa.Rod) -> None:
@@ -117,7 +118,7 @@ class TestAnyRod:
 
     def test_the_stress_is_known_where_the_diameter_is(self, rod: vibrissa.Rod) -> None:
         known = np.isfinite(vibrissa.sweep(rod, DISC, PATH, 1e-3).states["max_stress"])
-        assert known.all() if rod in (TAPERED, MEASURED, TAPERED_SOFT) else not known.any()
+        assert known.all() if rod in (TAPERED, DIAMETERS, MEASURED, TAPERED_SOFT) else not known.any()
 
 
 def test_scans_of_a_clamp_on_springs_are_reconstructed() -> None:
@@ -163,6 +164,12 @@ def test_derivatives_by_what_makes_the_rod() -> None:
         )
 
 
+def test_two_diameters_are_the_cone() -> None:
+    table = vibrissa.Rod(0.1, diameter=[(0.0, 1e-3), (0.1, 2e-4)], youngs_modulus=3e9)
+    one, other = (vibrissa.sweep(rod, DISC, PATH, 1e-3) for rod in (table, TAPERED))
+    assert one.states.tobytes() == other.states.tobytes()
+
+
 def test_what_is_no_clamp() -> None:
     with pytest.raises(ValueError, match="stiffness_phi of the clamp is 0"):
         vibrissa.ElasticClamp(stiffness_phi=0.0)
@@ -181,6 +188,8 @@ def test_sections_of_one_kind_are_a_uniform_rod() -> None:
 def test_what_a_rod_has() -> None:
     assert TAPERED.tip_diameter == 2e-4 and TAPERED.diameter == 1e-3 and TAPERED.sections == []
     assert TAPERED.bending_stiffness == pytest.approx(3e9 * math.pi * 1e-12 / 64.0, rel=1e-15)
+    assert DIAMETERS.diameter == [[0.0, 1e-3], [0.03, 0.8e-3], [0.06, 0.9e-3], [0.1, 2e-4]] and DIAMETERS.tip_diameter is None
+    assert DIAMETERS.bending_stiffness == TAPERED.bending_stiffness
     assert BENT.natural_curvature == 4.0 and MEASURED.natural_curvature == [[0.0, 1.0], [0.05, 2.0], [0.1, 6.0]]
     first, second = SECTIONS.sections
     assert SECTIONS.bending_stiffness == first.bending_stiffness == 2e-3
@@ -197,6 +206,13 @@ def test_what_a_rod_has() -> None:
         ({"diameter": 1e-3, "youngs_modulus": 1e9, "tip_diameter": 0.0}, "tip_diameter is 0, expected a positive"),
         ({"diameter": 1e-3, "youngs_modulus": 1e9, "tip_diameter": 1e-6}, "tip_diameter"),
         ({"diameter": 0.0, "youngs_modulus": 1e9, "tip_diameter": 1e-6}, "diameter is 0, expected a positive"),
+        ({"diameter": [1e-3, 2e-3], "youngs_modulus": 1e9}, r"diameter has the shape \[2\], expected a number \(m\), or points"),
+        ({"diameter": [[0.0, 1e-3], [0.1, 1e-4]]}, "missing field `youngs_modulus`"),
+        ({"diameter": [[0.0, 1e-3], [0.1, 1e-4]], "youngs_modulus": 1e9, "tip_diameter": 1e-4}, "tip_diameter is given beside the diameters"),
+        (
+            {"diameter": [[0.0, 1e-3], [0.05, 0.0], [0.09, 1e-4]], "youngs_modulus": 1e9},
+            "diameter of point 2 is 0.0 m, expected a positive, finite number; point 3 of diameter has the arc length 0.09 m, expected 0.1 m",
+        ),
         ({"bending_stiffness": 1.0, "natural_curvature": math.nan}, "natural_curvature is NaN"),
         ({"bending_stiffness": 1.0, "natural_curvature": [1.0, 2.0]}, r"shape \[2\], expected a number"),
         ({"bending_stiffness": 1.0, "natural_curvature": [[0.0, 1.0], [0.0, 2.0]]}, "point 2 of the natural curvature has the arc length 0"),
@@ -229,10 +245,11 @@ def test_what_is_no_section() -> None:
     "rod",
     [
         vibrissa.Rod(0.1, diameter=5e-4, youngs_modulus=206e9, tip_diameter=5e-4),
+        vibrissa.Rod(0.1, diameter=[[0.0, 5e-4], [0.04, 5e-4], [0.1, 5e-4]], youngs_modulus=206e9),
         vibrissa.Rod(0.1, diameter=5e-4, youngs_modulus=206e9, natural_curvature=0.0),
         vibrissa.Rod(0.1, sections=[vibrissa.Section(length, diameter=5e-4, youngs_modulus=206e9) for length in (0.03, 0.07)]),
     ],
-    ids=["cone of equal ends", "curvature 0", "equal sections"],
+    ids=["cone of equal ends", "equal diameters", "curvature 0", "equal sections"],
 )
 def test_a_rod_is_uniform_however_it_is_written(rod: vibrissa.Rod) -> None:
     plain = vibrissa.Rod(0.1, diameter=5e-4, youngs_modulus=206e9)

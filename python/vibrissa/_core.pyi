@@ -39,7 +39,7 @@ class Rod:
         length: float,
         bending_stiffness: float | None = None,
         *,
-        diameter: float | None = None,
+        diameter: _Floats | None = None,
         youngs_modulus: float | None = None,
         tip_diameter: float | None = None,
         natural_curvature: _Floats | None = None,
@@ -52,7 +52,7 @@ class Rod:
     @property
     def bending_stiffness(self) -> float: ...
     @property
-    def diameter(self) -> float | None: ...
+    def diameter(self) -> float | list[list[float]] | None: ...
     @property
     def youngs_modulus(self) -> float | None: ...
     @property

@@ -38,6 +38,25 @@ pub enum RodError {
         /// Diameter at the clamp as given, m.
         base_diameter: f64,
     },
+    /// Points of the diameters of a wire are not what a rod can have.
+    #[cfg(feature = "std")]
+    #[error("{}", .faults.join("; "))]
+    Diameters {
+        /// All that is wrong, each with its point, its value and what was expected.
+        faults: Vec<String>,
+    },
+    /// The diameter of a wire changes within too short a way.
+    #[error(
+        "diameter changes from {from:?} to {to:?} m between the points {number} and {next}, expected points further apart there, or sections for a step", next = .number + 1
+    )]
+    Step {
+        /// Number of the first of the two points, from 1.
+        number: usize,
+        /// Diameter at that point, m.
+        from: f64,
+        /// Diameter at the next one, m.
+        to: f64,
+    },
     /// The arc lengths of the loads do not grow from the clamp to the tip.
     #[error(
         "load {index} acts at arc length {s}, expected a value from {least} to {most}: loads are ordered from clamp to tip"

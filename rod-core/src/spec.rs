@@ -13,9 +13,9 @@ const IN_MM: f64 = 100.0;
 /// The fields of a rod in SI units, as scene files and the Python class have them: which of them go together is checked by
 /// [`build`](Self::build).
 ///
-/// A uniform rod has [`stiffness`](Self::stiffness) alone. With `tip_diameter` the wire tapers; `sections` are parts of constant stiffness, in
+/// A uniform rod has [`stiffness`](Self::stiffness) alone. With `tip_diameter` the wire tapers; `diameters` are those of more places; `sections` are parts of constant stiffness, in
 /// place of the stiffness of the whole; `natural_curvature` bends it at rest. A rod that is uniform and straight at rest is one, however it is
-/// written: with a tip as thick as its base, with a curvature of 0, or in sections that are all alike.
+/// written: with diameters that are all alike, with a curvature of 0, or in sections that are all alike.
 ///
 /// ```
 /// use rod_core::{CurvatureSpec, RodSpec, StiffnessSpec};
@@ -41,6 +41,8 @@ pub struct RodSpec {
     pub stiffness: StiffnessSpec,
     /// Diameter at the tip, m: the diameter changes linearly along the rod.
     pub tip_diameter: Option<f64>,
+    /// Arc lengths from the clamp (m) and diameters (m), from 0 to the length, with straight lines between them: in place of the two others.
+    pub diameters: Option<Vec<[f64; 2]>>,
     /// Curvature at rest.
     pub natural_curvature: Option<CurvatureSpec>,
     /// Parts from the clamp to the tip, whose lengths add up to that of the rod.
@@ -128,6 +130,9 @@ impl RodFault {
     }
 }
 
+/// What is said where a rod has two stiffnesses.
+const BOTH: &str = "bending_stiffness is given beside diameter or youngs_modulus, expected either it or those two";
+
 /// The fields that errors may name.
 const FIELDS: [&str; 7] =
     ["length", "diameter", "tip_diameter", "youngs_modulus", "bending_stiffness", "natural_curvature", "yield_stress"];
@@ -137,7 +142,7 @@ fn named(error: &RodError) -> Option<&'static str> {
     let what = match error {
         RodError::NotPositive { what, .. } | RodError::NotFinite { what, .. } | RodError::Section { what, .. } => what,
         RodError::SectionsLength { .. } => "length",
-        RodError::TooThick { .. } => "diameter",
+        RodError::TooThick { .. } | RodError::Diameters { .. } | RodError::Step { .. } => "diameter",
         RodError::TooTapered { .. } => "tip_diameter",
         _ => return None,
     };
@@ -174,9 +179,7 @@ impl StiffnessSpec {
             (Some(stiffness), None, None) => Rod::new(length, stiffness),
             (None, Some(diameter), Some(modulus)) => Rod::from_diameter(length, diameter, modulus),
             (Some(_), ..) => {
-                let message =
-                    "bending_stiffness is given beside diameter or youngs_modulus, expected either it or those two";
-                return Err(RodFault::at("bending_stiffness", message));
+                return Err(RodFault::at("bending_stiffness", BOTH));
             }
             (None, Some(_), None) => return Err(missing("youngs_modulus")),
             (None, None, Some(_)) => return Err(missing("diameter")),
@@ -219,6 +222,7 @@ impl RodSpec {
             length,
             stiffness,
             tip_diameter: None,
+            diameters: None,
             natural_curvature: None,
             sections: Vec::new(),
             yield_stress: None,
@@ -276,8 +280,11 @@ impl RodSpec {
         rod.map(Alone::Varying).map_err(|error| RodFault::at("natural_curvature", error.to_string()))
     }
 
-    /// The rod without its curvature at rest: uniform, or a cone.
+    /// The rod without its curvature at rest: uniform, a cone, or cones.
     fn of_one_piece(&self) -> Result<Alone, RodFault> {
+        if let Some(points) = &self.diameters {
+            return self.of_diameters(points);
+        }
         let rod = self.stiffness.rod(self.length)?;
         let StiffnessSpec { diameter, youngs_modulus, .. } = self.stiffness;
         match (self.tip_diameter, diameter.zip(youngs_modulus)) {
@@ -296,9 +303,36 @@ impl RodSpec {
         }
     }
 
+    fn of_diameters(&self, points: &[[f64; 2]]) -> Result<Alone, RodFault> {
+        let beside = |field, message: &str| Err(RodFault::at(field, message));
+        let StiffnessSpec { bending_stiffness, diameter, youngs_modulus } = self.stiffness;
+        if self.tip_diameter.is_some() {
+            let message =
+                "tip_diameter is given beside the diameters of points, expected it beside that of the base alone";
+            return beside("tip_diameter", message);
+        }
+        if diameter.is_some() {
+            return beside("diameter", "diameter is given beside the diameters of points, expected one of the two");
+        }
+        if bending_stiffness.is_some() {
+            return beside("bending_stiffness", BOTH);
+        }
+        // what is missing is told as of any wire
+        let base = points.first().map_or(f64::NAN, |point| point[1]);
+        let Some(modulus) = youngs_modulus else {
+            return StiffnessSpec { diameter: Some(base), ..self.stiffness }.rod(self.length).map(Alone::Uniform);
+        };
+        let rod = Rod::from_diameters(self.length, points, modulus).map_err(|error| RodFault::of(&error, None))?;
+        if points.iter().any(|point| point[1] != base) {
+            return Ok(Alone::Varying(rod));
+        }
+        StiffnessSpec::of_wire(base, modulus).rod(self.length).map(Alone::Uniform)
+    }
+
     /// The rod of its sections, with their curvatures at rest.
     fn of_sections(&self) -> Result<Alone, RodFault> {
-        let given = self.stiffness.given().or_else(|| self.tip_diameter.and(Some("tip_diameter")));
+        let given = self.diameters.as_ref().map(|_| "diameter").or_else(|| self.stiffness.given());
+        let given = given.or_else(|| self.tip_diameter.and(Some("tip_diameter")));
         if let Some(field) = given {
             let message = format!("{field} is given beside sections, expected it in the sections alone");
             return Err(RodFault::at(field, message));

@@ -35,7 +35,8 @@ pub(super) struct SceneTables {
 #[serde(deny_unknown_fields)]
 pub(super) struct RodTable {
     pub length: Spanned<f64>,
-    pub diameter: Option<Spanned<f64>>,
+    /// A number, or a list of points.
+    pub diameter: Option<Spanned<toml::Value>>,
     pub tip_diameter: Option<Spanned<f64>>,
     pub youngs_modulus: Option<Spanned<f64>>,
     pub bending_stiffness: Option<Spanned<f64>>,

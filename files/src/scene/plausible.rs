@@ -1,8 +1,9 @@
 //! Numbers of a scene that are valid, but no rod and no scan have them: most often a wrong unit.
 
 use super::document::{PointValue, RodTable, SceneTables, SectionTable};
+use super::rod_table;
 use crate::toml_file::Fault;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 
 /// From a single fibre to a mast, m.
@@ -14,8 +15,8 @@ const MODULUS: RangeInclusive<f64> = 1e4..=2e12;
 /// Straight path, lengths of the rod, beyond which positions are most likely in another unit than m.
 const LONG_WAY: f64 = 100.0;
 
-/// A number, its name, plausible range and unit.
-type Field<'a> = (&'static str, Option<&'a Spanned<f64>>, RangeInclusive<f64>, &'static str);
+/// A number, its name, where it is, its plausible range and unit.
+type Field = (&'static str, Option<(Range<usize>, f64)>, RangeInclusive<f64>, &'static str);
 
 /// A warning for each number of a scene outside of its plausible range.
 pub(super) fn scene(tables: &SceneTables) -> Vec<Fault> {
@@ -25,23 +26,33 @@ pub(super) fn scene(tables: &SceneTables) -> Vec<Fault> {
     fields.filter_map(unlikely).chain(long_way(tables)).collect()
 }
 
-fn rod_fields(table: &RodTable) -> Vec<Field<'_>> {
-    let RodTable { length, diameter, tip_diameter, youngs_modulus, .. } = table;
+fn rod_fields(table: &RodTable) -> Vec<Field> {
+    let RodTable { length, tip_diameter, youngs_modulus, .. } = table;
+    // the first of a list that is not plausible
+    let (place, diameters) = rod_table::diameters(table).unwrap_or_default();
+    let diameter = diameters.iter().find(|diameter| !DIAMETER.contains(diameter));
     vec![
-        ("length", Some(length), LENGTH, "m"),
-        ("diameter", diameter.as_ref(), DIAMETER, "m"),
-        ("tip_diameter", tip_diameter.as_ref(), DIAMETER, "m"),
-        ("youngs_modulus", youngs_modulus.as_ref(), MODULUS, "Pa"),
+        ("length", place_of(Some(length)), LENGTH, "m"),
+        ("diameter", diameter.map(|diameter| (place, *diameter)), DIAMETER, "m"),
+        ("tip_diameter", place_of(tip_diameter.as_ref()), DIAMETER, "m"),
+        ("youngs_modulus", place_of(youngs_modulus.as_ref()), MODULUS, "Pa"),
     ]
 }
 
-fn section_fields(table: &SectionTable) -> Vec<Field<'_>> {
+fn section_fields(table: &SectionTable) -> Vec<Field> {
     let SectionTable { diameter, youngs_modulus, .. } = table;
-    vec![("diameter", diameter.as_ref(), DIAMETER, "m"), ("youngs_modulus", youngs_modulus.as_ref(), MODULUS, "Pa")]
+    vec![
+        ("diameter", place_of(diameter.as_ref()), DIAMETER, "m"),
+        ("youngs_modulus", place_of(youngs_modulus.as_ref()), MODULUS, "Pa"),
+    ]
 }
 
-fn unlikely((name, field, range, unit): Field<'_>) -> Option<Fault> {
-    let (span, value) = field.map(|field| (field.span(), *field.get_ref()))?;
+fn place_of(field: Option<&Spanned<f64>>) -> Option<(Range<usize>, f64)> {
+    field.map(|field| (field.span(), *field.get_ref()))
+}
+
+fn unlikely((name, field, range, unit): Field) -> Option<Fault> {
+    let (span, value) = field?;
     let (least, most) = (range.start(), range.end());
     let text = format!("{name} is {value} {unit}, expected {least:e} to {most:e} {unit}; is the unit right?");
     (!range.contains(&value)).then(|| Fault::new(span, text))

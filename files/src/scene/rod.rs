@@ -111,7 +111,11 @@ mod tests {
         let known = read("[rod]\nlength = 0.1\nbending_stiffness = 2e-3\n", Some(0.05));
         assert!(known.is_stiffness_known && known.rod.length() == 0.05);
         assert_eq!(known.rod.at_clamp().bending_stiffness(), 2e-3);
-        for text in ["[rod]\nlength = 0.1\n", "[rod]\nlength = 0.1\ndiameter = 1e-3\ntip_diameter = 1e-4\n"] {
+        for text in [
+            "[rod]\nlength = 0.1\n",
+            "[rod]\nlength = 0.1\ndiameter = 1e-3\ntip_diameter = 1e-4\n",
+            "[rod]\nlength = 0.1\ndiameter = [[0, 1e-3], [0.02, 0.9e-3], [0.1, 1e-4]]\n",
+        ] {
             let unknown = read(text, None);
             let stiffness = unknown.rod.at_clamp().bending_stiffness();
             assert!(!unknown.is_stiffness_known && (stiffness - 1.0).abs() < 1e-12, "{stiffness}");
@@ -122,6 +126,30 @@ mod tests {
             error.starts_with("rod.toml:3:16: rod.tip_diameter: tip_diameter is given without diameter"),
             "{error}"
         );
+    }
+
+    #[test]
+    fn a_list_of_diameters_is_checked_without_a_stiffness_too() {
+        for (diameters, expected) in [
+            ("[]", "rod.toml:3:12: rod.diameter: diameter has 0 points"),
+            (
+                "[[0, 0.0], [0.1, 1e-4]]",
+                "rod.toml:3:12: rod.diameter: diameter of point 1 is 0.0 m, expected a positive",
+            ),
+            (
+                "[[0, 1e-3], [0.05, 1e-6], [0.09, 1e-4]]",
+                "rod.toml:3:12: rod.diameter: diameter of point 2 is 1e-6 m, expected between 0.01 and 100 times that at the clamp, 0.001 m; \
+                 point 3 of diameter has the arc length 0.09 m, expected 0.1 m",
+            ),
+        ] {
+            let text = format!("[rod]\nlength = 0.1\ndiameter = {diameters}\n");
+            let error = parse_filmed("rod.toml".as_ref(), &text, None).unwrap_err().to_string();
+            assert!(error.starts_with(expected), "{error}");
+        }
+        // points to another length than that of `--length`
+        let text = "[rod]\nlength = 0.1\ndiameter = [[0, 1e-3], [0.1, 1e-4]]\n";
+        let error = parse_filmed("rod.toml".as_ref(), text, Some(0.09)).unwrap_err().to_string();
+        assert!(error.contains("arc length 0.1 m, expected 0.09 m, the length of the rod"), "{error}");
     }
 
     #[test]

@@ -62,16 +62,23 @@ pub(super) fn filmed_rod(
     let mut spec = spec(table)?;
     spec.length = length.unwrap_or(spec.length);
     let StiffnessSpec { bending_stiffness, diameter, youngs_modulus } = spec.stiffness;
+    let base = match &spec.diameters {
+        Some(points) => Some(points.first().map_or(f64::NAN, |point| point[1])),
+        None => diameter,
+    };
     let is_known = bending_stiffness.is_some() || youngs_modulus.is_some() || !spec.sections.is_empty();
-    if let (None, Some(tip)) = (diameter, table.get_ref().tip_diameter.as_ref())
+    if let (None, Some(tip)) = (base, table.get_ref().tip_diameter.as_ref())
         && !is_known
     {
         let message = "tip_diameter is given without diameter, expected both for a wire that tapers";
         return Err(Fault::new(tip.span(), message));
     }
     if !is_known {
-        spec.stiffness = match diameter {
-            Some(diameter) => StiffnessSpec::of_wire(diameter, 64.0 / (std::f64::consts::PI * diameter.powi(4))),
+        spec.stiffness = match base {
+            Some(base) => {
+                let wire = StiffnessSpec::of_wire(base, 64.0 / (std::f64::consts::PI * base.powi(4)));
+                StiffnessSpec { diameter, ..wire }
+            }
             None => StiffnessSpec::of(1.0),
         };
     }
@@ -129,11 +136,21 @@ fn spec(table: &Spanned<RodTable>) -> Result<RodSpec, Fault> {
         yield_stress,
         section,
     } = table.get_ref();
+    let (diameter, diameters) = match diameter.as_ref().map(|field| along(field, "diameter", "m")).transpose()? {
+        None => (None, None),
+        Some(Along::Number(diameter)) => (Some(diameter), None),
+        Some(Along::Points(points)) => (None, Some(points)),
+    };
+    let curvature = natural_curvature.as_ref().map(|field| along(field, "curvature", "1/m")).transpose()?;
     Ok(RodSpec {
         length: *length.get_ref(),
-        stiffness: stiffness([bending_stiffness, diameter, youngs_modulus]),
+        stiffness: StiffnessSpec { diameter, ..stiffness([bending_stiffness, &None, youngs_modulus]) },
         tip_diameter: value(tip_diameter),
-        natural_curvature: natural_curvature.as_ref().map(curvature).transpose()?,
+        diameters,
+        natural_curvature: curvature.map(|curvature| match curvature {
+            Along::Number(curvature) => CurvatureSpec::Constant(curvature),
+            Along::Points(points) => CurvatureSpec::Points(points),
+        }),
         sections: section.iter().map(|section| section_spec(section.get_ref())).collect(),
         yield_stress: value(yield_stress),
         clamp: ClampSpec::Rigid,
@@ -154,20 +171,42 @@ fn stiffness(fields: [&Option<Spanned<f64>>; 3]) -> StiffnessSpec {
     StiffnessSpec { bending_stiffness, diameter, youngs_modulus }
 }
 
-/// A natural curvature as it is written: a number, or points.
-fn curvature(field: &Spanned<Value>) -> Result<CurvatureSpec, Fault> {
-    let wrong =
-        || Fault::new(field.span(), "expected a number (1/m), or a list of points: [[s, curvature], ...] in m and 1/m");
+/// A quantity along the rod as it is written.
+enum Along {
+    Number(f64),
+    /// Arc lengths and values.
+    Points(Vec<[f64; 2]>),
+}
+
+fn along(field: &Spanned<Value>, quantity: &str, unit: &str) -> Result<Along, Fault> {
     let value = field.get_ref();
-    if let Some(curvature) = number(value) {
-        return Ok(CurvatureSpec::Constant(curvature));
+    let wrong = || {
+        let found = value.as_str().map_or_else(String::new, |text| format!("the value is the text \"{text}\", "));
+        let is_quoted = value.as_str().is_some_and(|text| text.trim().parse::<f64>().is_ok());
+        let hint = if is_quoted { "; write it without quotes" } else { "" };
+        let expected =
+            format!("expected a number ({unit}), or a list of points: [[s, {quantity}], ...] in m and {unit}");
+        Fault::new(field.span(), format!("{found}{expected}{hint}"))
+    };
+    if let Some(number) = number(value) {
+        return Ok(Along::Number(number));
     }
     let list = value.as_array().ok_or_else(wrong)?;
     let point = |point: &Value| match point.as_array()?.as_slice() {
-        [s, curvature] => Some([number(s)?, number(curvature)?]),
+        [s, value] => Some([number(s)?, number(value)?]),
         _ => None,
     };
-    list.iter().map(point).collect::<Option<_>>().ok_or_else(wrong).map(CurvatureSpec::Points)
+    list.iter().map(point).collect::<Option<_>>().ok_or_else(wrong).map(Along::Points)
+}
+
+/// The diameters of a rod that are written, all in one place.
+pub(super) fn diameters(table: &RodTable) -> Option<(Range<usize>, Vec<f64>)> {
+    let field = table.diameter.as_ref()?;
+    let values = match along(field, "diameter", "m").ok()? {
+        Along::Number(diameter) => vec![diameter],
+        Along::Points(points) => points.iter().map(|point| point[1]).collect(),
+    };
+    Some((field.span(), values))
 }
 
 /// What is wrong with a rod, where that stands in its table.
@@ -183,7 +222,7 @@ fn of_rod(table: &RodTable, field: &str) -> Option<Range<usize>> {
     let span = |field: &Option<Spanned<f64>>| field.as_ref().map(Spanned::span);
     match field {
         "length" => Some(table.length.span()),
-        "diameter" => span(&table.diameter),
+        "diameter" => table.diameter.as_ref().map(Spanned::span),
         "tip_diameter" => span(&table.tip_diameter),
         "youngs_modulus" => span(&table.youngs_modulus),
         "bending_stiffness" => span(&table.bending_stiffness),

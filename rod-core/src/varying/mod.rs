@@ -1,5 +1,6 @@
 //! Rods that are not uniform or not straight at rest, made from SI units.
 
+mod cones;
 mod natural_curvature;
 mod stiffness;
 mod stress;
@@ -12,6 +13,7 @@ use crate::pose::Pose;
 use crate::rod::{Rod, positive};
 use crate::segment::Segment;
 use crate::units::Units;
+use cones::Cones;
 use natural_curvature::{Curvature, Function};
 use std::sync::Arc;
 use stiffness::{Model, Stiffness};
@@ -88,6 +90,41 @@ impl Rod {
         // a taper of exactly 0 where the diameters are equal
         let taper = (base_diameter - tip_diameter) / base_diameter;
         VaryingRod::new(at_clamp, Stiffness::Cone(Cone { taper }))
+    }
+
+    /// A wire of `length` (m) and `youngs_modulus` (Pa) whose diameter was measured in several places: `points` of arc length (m, from the clamp)
+    /// and diameter (m), from 0 to the length, with straight lines between them. E I = E pi d^4 / 64. Two points are [`Rod::tapered`], to the last
+    /// bit.
+    ///
+    /// ```
+    /// use rod_core::Rod;
+    /// let whisker = Rod::from_diameters(0.04, &[[0.0, 1e-4], [0.01, 0.9e-4], [0.04, 2e-5]], 3e9)?;
+    /// let message = Rod::from_diameters(0.04, &[[0.0, 1e-4], [0.01, 0.0], [0.03, 2e-5]], 3e9).unwrap_err().to_string();
+    /// assert_eq!(
+    ///     message,
+    ///     "diameter of point 2 is 0.0 m, expected a positive, finite number; \
+    ///      point 3 of diameter has the arc length 0.03 m, expected 0.04 m, the length of the rod"
+    /// );
+    /// # Ok::<(), rod_core::RodError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RodError::NotPositive`] where length or modulus are not positive, finite numbers; [`RodError::Diameters`] where there are fewer than two
+    /// points, arc lengths do not grow from 0 to the length, diameters are not positive and finite, larger than the length, or more than 100 times
+    /// larger or smaller than that at the clamp; [`RodError::Step`] where the diameter changes too fast: tenfold within 1e-3 of
+    /// the length, or at all within 1e-12.
+    pub fn from_diameters(length: f64, points: &[[f64; 2]], youngs_modulus: f64) -> Result<VaryingRod, RodError> {
+        positive("length", length)?;
+        cones::check(length, points)?;
+        positive("youngs_modulus", youngs_modulus)?;
+        if let [[_, base], [_, tip]] = *points {
+            return Self::tapered(length, base, tip, youngs_modulus);
+        }
+        let at_clamp = Self::from_diameter(length, points[0][1], youngs_modulus)?;
+        VaryingRod::new(at_clamp, Stiffness::Cones(Cones::new(length, points))).map_err(|error| match error {
+            RodError::NotSmooth { .. } | RodError::Border { .. } | RodError::Stiffness { .. } => cones::step(points),
+            error => error,
+        })
     }
 
     /// A rod of `length` (m) that consists of sections from the clamp to the tip, each of constant stiffness and natural curvature.
@@ -185,6 +222,7 @@ impl VaryingRod {
         let model = stiffness.model().and_then(open).map_err(|error| in_si(error, &at_clamp))?;
         let diameters = match (&stiffness, at_clamp.diameter()) {
             (Stiffness::Cone(Cone { taper }), Some(clamp)) => Some(Diameters::Cone { clamp, taper: *taper }),
+            (Stiffness::Cones(cones), Some(clamp)) => Some(Diameters::Cones { clamp, cones: cones.clone() }),
             _ => None,
         };
         Ok(Self { at_clamp, stiffness, model, diameters })

@@ -1,5 +1,6 @@
 //! The models of rods by how their stiffness varies.
 
+use super::cones::Cones;
 use super::natural_curvature::{Curvature, Function};
 use crate::error::RodError;
 use crate::model::{Bent, Cone, Profile, RodModel, RodSection, Sections, Smooth};
@@ -14,6 +15,7 @@ pub(super) type Model = Arc<dyn RodModel + Send + Sync>;
 pub(super) enum Stiffness {
     Sections(Vec<RodSection>),
     Cone(Cone),
+    Cones(Cones),
     Function { function: Function, borders: Vec<f64> },
 }
 
@@ -41,6 +43,10 @@ impl Stiffness {
                 Arc::new(Smooth::with_borders(Bent::new(steps, natural), &borders)?)
             }
             Self::Cone(cone) => Arc::new(Smooth::with_borders(Bent::new(cone, natural), &merged(&[], &breaks))?),
+            Self::Cones(cones) => {
+                let borders = merged(&cones.joints, &breaks);
+                Arc::new(Smooth::with_borders(Bent::new(cones, natural), &borders)?)
+            }
             Self::Function { function, borders } => {
                 let borders = merged(&borders, &breaks);
                 Arc::new(Smooth::with_borders(Bent::new(move |s: f64| function(s), natural), &borders)?)

@@ -1,5 +1,6 @@
 //! The bending stress at the surface of a round rod whose diameter varies.
 
+use super::cones::{Cones, Frustum};
 use crate::model::{Cut, RodModel};
 use crate::segment::Segment;
 use core::f64::consts::PI;
@@ -17,25 +18,24 @@ const MOST_INTERVALS: usize = 4096;
 pub(super) enum Diameters {
     /// It falls linearly: `clamp` (1 - `taper` s).
     Cone { clamp: f64, taper: f64 },
+    /// It falls or grows linearly between points: `clamp` times that of the cones.
+    Cones { clamp: f64, cones: Cones },
     /// One for each section; `joints` are the arc lengths between them.
     Sections { joints: Vec<f64>, diameters: Vec<f64> },
 }
 
-/// The stress of a unit of moment: 32 / (pi d^3) at the arc length `s`, and how fast that varies.
-struct Modulus {
-    /// Diameter at s = 0 and its relative decrease along the rod.
-    clamp: f64,
-    taper: f64,
-}
+/// The stress of a unit of moment: 32 / (pi d^3) at the arc length `s`, d in m, and how fast that varies.
+struct Modulus(Frustum);
 
 impl Modulus {
     fn inverse(&self, s: f64) -> f64 {
-        32.0 / (PI * (self.clamp * (1.0 - self.taper * s)).powi(3))
+        32.0 / (PI * self.0.at(s).powi(3))
     }
 
     /// Logarithmic derivative of the diameter, less its sign.
     fn narrowing(&self, s: f64) -> f64 {
-        self.taper / (1.0 - self.taper * s)
+        let Frustum { from, taper, .. } = self.0;
+        taper / (1.0 - taper * (s - from))
     }
 }
 
@@ -52,27 +52,28 @@ struct Place {
 impl Diameters {
     /// The diameter at an arc length (L); at a joint that on the side of the tip.
     pub fn at(&self, s: f64) -> f64 {
-        let Modulus { clamp, taper } = self.modulus(self.piece(s));
-        clamp * (1.0 - taper * s)
+        self.modulus(s).0.at(s)
     }
 
-    fn piece(&self, s: f64) -> usize {
-        match self {
-            Self::Cone { .. } => 0,
-            Self::Sections { joints, .. } => joints.partition_point(|&joint| joint <= s),
-        }
-    }
-
-    fn modulus(&self, piece: usize) -> Modulus {
-        match self {
-            Self::Cone { clamp, taper } => Modulus { clamp: *clamp, taper: *taper },
-            Self::Sections { diameters, .. } => Modulus { clamp: diameters[piece], taper: 0.0 },
-        }
+    /// That of the piece of a place; at a joint that on the side of the tip.
+    fn modulus(&self, s: f64) -> Modulus {
+        Modulus(match self {
+            Self::Cone { clamp, taper } => Frustum { from: 0.0, diameter: *clamp, taper: *taper },
+            Self::Cones { clamp, cones } => {
+                let part = cones.part(s);
+                Frustum { diameter: clamp * part.diameter, ..*part }
+            }
+            Self::Sections { joints, diameters } => {
+                let piece = joints.partition_point(|&joint| joint <= s);
+                Frustum { from: 0.0, diameter: diameters[piece], taper: 0.0 }
+            }
+        })
     }
 
     fn joints(&self) -> &[f64] {
         match self {
             Self::Cone { .. } => &[],
+            Self::Cones { cones, .. } => &cones.joints,
             Self::Sections { joints, .. } => joints,
         }
     }
@@ -92,7 +93,7 @@ impl Diameters {
         let ends = self.joints().iter().copied().filter(|joint| *joint > from && *joint < to).chain([to]);
         let (mut largest, mut left) = (0.0_f64, (from, start));
         for end in ends {
-            let modulus = self.modulus(self.piece(left.0));
+            let modulus = self.modulus(left.0);
             let Some(last) = last else {
                 let most = modulus.inverse(left.0).max(modulus.inverse(end));
                 largest = largest.max(start.moment.abs() * most);

@@ -1,6 +1,7 @@
 //! Rods that are not uniform and straight, against independent solutions.
 
 mod clamps;
+mod diameters;
 mod differences;
 mod judge;
 mod own;

@@ -17,6 +17,12 @@ fn models() -> Vec<(&'static str, Box<dyn RodModel>)> {
         ("cone", Box::new(Smooth::new(Cone { taper: 0.8 }).unwrap())),
         ("bent cone", Box::new(Smooth::new(Bent::new(Cone { taper: 0.5 }, |s| 0.5 + s)).unwrap())),
         ("from SI units", Box::new(Rod::tapered(0.1, 1e-3, 4e-4, 206e9).unwrap().with_natural_curvature(3.0).unwrap())),
+        (
+            "diameters",
+            Box::new(
+                Rod::from_diameters(0.1, &[[0.0, 1e-3], [0.03, 0.9e-3], [0.06, 0.95e-3], [0.1, 4e-4]], 206e9).unwrap(),
+            ),
+        ),
         ("closure", Box::new(Smooth::new(|s: f64| (-s).exp()).unwrap())),
     ]
 }
