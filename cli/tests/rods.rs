@@ -72,6 +72,17 @@ fn each_mistake_has_its_place() {
             WIRE.replace("0.5e-3", "\"0.5e-3\""),
             ["rod.diameter: ", "the value is the text \"0.5e-3\", expected a number (m), or a list of points"],
         ),
+        (
+            format!("{WIRE}natural_curvature = [[0.0, 1.0], [0.09, 2.0]]\n"),
+            [
+                "scene.toml:5:21: rod.natural_curvature: ",
+                "arc length 0.09 m, expected 0.1 m: the points go from 0 to the length",
+            ],
+        ),
+        (
+            format!("{WIRE}natural_curvature = [[0.01, 1.0], [0.1, 2.0]]\n"),
+            ["rod.natural_curvature: ", "point 1 of natural_curvature has the arc length 0.01 m, expected 0.0 m"],
+        ),
         (format!("{WIRE}natural_curvature = []\n"), ["rod.natural_curvature: ", "number of points"]),
         (format!("{WIRE}natural_curvature = nan\n"), ["rod.natural_curvature: ", "NaN"]),
         (format!("{WIRE}natural_curvature = 100.0\n"), ["rod.natural_curvature: ", "crosses itself at rest"]),

@@ -236,8 +236,8 @@ fn representation(what: &str, length: f64, stiffness: Stiffness) -> String {
 /// tip_diameter : float, optional
 ///     Diameter at the tip in m; the diameter changes linearly along the rod.
 /// natural_curvature : float or array_like, optional
-///     Curvature at rest in 1/m, positive to the left; or points of shape (n, 2): arc length from the clamp (m) and curvature (1/m),
-///     with straight lines between them.
+///     Curvature at rest in 1/m, positive to the left; or points of shape (n, 2): arc length from the clamp (m) and curvature (1/m), from 0 to
+///     ``length``, with straight lines between them.
 /// sections : sequence of Section, optional
 ///     Parts from the clamp to the tip, in place of stiffness or diameters. Their lengths add up to ``length``.
 /// yield_stress : float, optional

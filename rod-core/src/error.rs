@@ -149,8 +149,8 @@ pub enum RodError {
         /// The one before it, or 0.
         least: f64,
     },
-    /// A point of the natural curvature is not on the rod, or not beyond the point before it.
-    #[error("point {number} of the natural curvature has the arc length {s} m, expected {expected}")]
+    /// A point of the natural curvature is not beyond the point before it.
+    #[error("point {number} of natural_curvature has the arc length {s} m, expected {expected}")]
     CurvaturePoint {
         /// Its number, from 1.
         number: usize,
@@ -158,6 +158,20 @@ pub enum RodError {
         s: f64,
         /// What was expected.
         expected: &'static str,
+    },
+    /// The points of the natural curvature do not begin at the clamp or do not end at the tip.
+    #[error(
+        "point {number} of natural_curvature has the arc length {s:?} m, expected {expected:?} m: the points go from 0 to the length of the rod, {length:?} m"
+    )]
+    CurvatureEnd {
+        /// Number of the point, from 1: the first or the last one.
+        number: usize,
+        /// Its arc length as given, m.
+        s: f64,
+        /// What it should be, m: 0 or the length.
+        expected: f64,
+        /// The length of the rod, m.
+        length: f64,
     },
     /// A rod crosses itself at rest.
     #[error(

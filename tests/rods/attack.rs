@@ -106,15 +106,17 @@ fn sections_are_of_comparable_stiffness() {
     }
 }
 
-/// Points beyond the rod, as fractions or in mm would be, are told.
+/// Points that end elsewhere than the rod, as fractions or in mm would, are told.
 #[test]
-fn points_of_a_curvature_are_on_the_rod() {
-    for (points, number) in [([[0.0, 2.0], [1.0, 12.0]], 2), ([[-0.01, 2.0], [0.02, 12.0]], 1)] {
+fn points_of_a_curvature_go_from_clamp_to_tip() {
+    for (points, number) in [
+        ([[0.0, 2.0], [1.0, 12.0]], 2),
+        ([[-0.01, 2.0], [0.02, 12.0]], 1),
+        ([[0.0, 2.0], [0.02, 12.0]], 2),
+        ([[0.01, 2.0], [0.03, 12.0]], 1),
+    ] {
         let points = NaturalCurvature::points(&points).unwrap();
         let message = Rod::new(0.03, 1e-6).unwrap().with_natural_curvature(points).unwrap_err().to_string();
-        assert!(
-            message.starts_with(&format!("point {number} of the natural curvature has the arc length")),
-            "{message}"
-        );
+        assert!(message.starts_with(&format!("point {number} of natural_curvature has the arc length")), "{message}");
     }
 }

@@ -233,7 +233,7 @@ impl VaryingRod {
     ///
     /// # Errors
     /// [`RodError::NotFinite`] for a number and [`RodError::NaturalCurvature`] for a function that is not finite,
-    /// [`RodError::CurvaturePoint`] for a point that is not on the rod, [`RodError::NotSmooth`] near a jump or kink, [`RodError::CrossesItself`] where the rod has a loop at rest, [`RodError::Coiled`]
+    /// [`RodError::CurvatureEnd`] for points that do not go from 0 to the length, [`RodError::NotSmooth`] near a jump or kink, [`RodError::CrossesItself`] where the rod has a loop at rest, [`RodError::Coiled`]
     /// where it turns by more than 100 rad.
     pub fn with_natural_curvature(self, curvature: impl Into<NaturalCurvature>) -> Result<Self, RodError> {
         let length = self.length();

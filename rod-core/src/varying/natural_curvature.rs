@@ -3,7 +3,7 @@
 use crate::error::{RodError, finite};
 use std::sync::Arc;
 
-/// Relative rounding of an arc length at the tip.
+/// Relative rounding of the arc lengths of both ends.
 const ROUNDING: f64 = 1e-9;
 
 /// A function of the arc length.
@@ -35,17 +35,17 @@ impl Curvature {
         }
     }
 
-    /// Whether its points, if it has some, are on a rod of this length.
+    /// Whether its points, if it has some, go from the clamp to the tip of a rod of this length: what is beyond them nobody measured, and points in
+    /// parts of the length or in mm end elsewhere.
     pub fn check(&self, length: f64) -> Result<(), RodError> {
         let Self::Points(points) = self else { return Ok(()) };
-        let on_rod = |s: f64| (-ROUNDING * length..=length * (1.0 + ROUNDING)).contains(&s);
-        match points.iter().position(|[s, _]| !on_rod(*s)) {
-            Some(k) => {
-                let expected = "a place on the rod, from 0 to its length";
-                Err(RodError::CurvaturePoint { number: k + 1, s: points[k][0], expected })
-            }
-            None => Ok(()),
-        }
+        let is_off = |s: f64, expected: f64| (s - expected).abs() > ROUNDING * length;
+        let ends = [(1, points.first(), 0.0), (points.len(), points.last(), length)];
+        let off = ends.into_iter().find_map(|(number, point, expected)| {
+            let s = point.filter(|point| is_off(point[0], expected))?[0];
+            Some(RodError::CurvatureEnd { number, s, expected, length })
+        });
+        off.map_or(Ok(()), Err)
     }
 
     /// In units of a length.
@@ -60,7 +60,7 @@ impl Curvature {
     }
 }
 
-/// On the line between the points before and after an arc length; beyond the first and the last one as there.
+/// On the line between the points before and after an arc length; beyond the first and the last one, by rounding, as there.
 fn between(points: &[[f64; 2]], s: f64) -> f64 {
     let after = points.partition_point(|[at, _]| *at <= s);
     match (after.checked_sub(1).map(|before| points[before]), points.get(after)) {
@@ -72,15 +72,14 @@ fn between(points: &[[f64; 2]], s: f64) -> f64 {
 }
 
 impl NaturalCurvature {
-    /// Straight lines between measured points: arc length (m, from the clamp) and curvature (1/m). Before the first and beyond the last
-    /// point the curvature is as there.
+    /// Straight lines between measured points: arc length (m, from the clamp) and curvature (1/m), from 0 to the length of the rod.
     ///
     /// ```
     /// use rod_core::{NaturalCurvature, Rod};
     /// let measured = NaturalCurvature::points(&[[0.0, 5.0], [0.02, 20.0], [0.04, 25.0]])?;
     /// let whisker = Rod::tapered(0.04, 1e-4, 2e-5, 3e9)?.with_natural_curvature(measured)?;
     /// let message = NaturalCurvature::points(&[[0.02, 5.0], [0.0, 20.0]]).map(drop).unwrap_err().to_string();
-    /// assert_eq!(message, "point 2 of the natural curvature has the arc length 0 m, expected more than that of the point before");
+    /// assert_eq!(message, "point 2 of natural_curvature has the arc length 0 m, expected more than that of the point before");
     /// # Ok::<(), rod_core::RodError>(())
     /// ```
     ///
@@ -88,10 +87,10 @@ impl NaturalCurvature {
     /// [`RodError::NotPositive`] without points, [`RodError::NotFinite`], [`RodError::CurvaturePoint`] for arc lengths that do not grow.
     pub fn points(points: &[[f64; 2]]) -> Result<Self, RodError> {
         if points.is_empty() {
-            return Err(RodError::NotPositive { what: "the number of points of the natural curvature", value: 0.0 });
+            return Err(RodError::NotPositive { what: "the number of points of natural_curvature", value: 0.0 });
         }
         for [s, curvature] in points {
-            finite("arc length of a point of the natural curvature", *s)?;
+            finite("arc length of a point of natural_curvature", *s)?;
             finite("natural_curvature", *curvature)?;
         }
         if let Some(k) = (1..points.len()).find(|&k| points[k][0] <= points[k - 1][0]) {

@@ -1,6 +1,6 @@
 //! Rods from SI units as a user makes them, against closed forms of small deflections, shapes at rest, and their own limits.
 
-use rod_core::{GeneralElastica, Load, Pose, Rod, RodError, RodModel, RodSection, VaryingRod};
+use rod_core::{GeneralElastica, Load, NaturalCurvature, Pose, Rod, RodError, RodModel, RodSection, VaryingRod};
 use std::f64::consts::PI;
 
 const CLAMP: Pose = Pose { x: 0.0, y: 0.0, phi: 0.0 };
@@ -155,6 +155,22 @@ fn bad_input_names_field_value_and_expectation() {
         let message = result.unwrap_err().to_string();
         assert!(expected.iter().all(|part| message.contains(part)), "{message} {expected:?}");
     }
+    // points go from 0 to the length, but for rounding
+    let points = |from: f64, to: f64| {
+        let points = NaturalCurvature::points(&[[from, 1.0], [0.04, 2.0], [to, 3.0]]).unwrap();
+        rod.with_natural_curvature(points).map_err(|error| error.to_string()).err()
+    };
+    let expected = |number, s, end| {
+        Some(format!(
+            "point {number} of natural_curvature has the arc length {s} m, expected {end} m: the points go from 0 to the length of the rod, 0.1 m"
+        ))
+    };
+    assert_eq!(points(0.01, 0.1), expected(1, "0.01", "0.0"));
+    assert_eq!(points(-0.01, 0.1), expected(1, "-0.01", "0.0"));
+    assert_eq!(points(0.0, 0.09), expected(3, "0.09", "0.1"));
+    assert_eq!(points(0.0, 100.0), expected(3, "100.0", "0.1"));
+    assert_eq!([points(1e-12, 0.1 - 1e-12), points(0.0, 0.1)], [None, None]);
+    assert!(rod.with_natural_curvature(NaturalCurvature::points(&[[0.0, 1.0]]).unwrap()).is_err());
     // the place of a jump is told in m
     let jump = Rod::varying(LENGTH, |s| if s < 0.05 { 1.0 } else { 0.5 }, &[]).unwrap_err();
     assert!(matches!(jump, RodError::NotSmooth { s } if (s - 0.05).abs() < 1e-3), "{jump}");
