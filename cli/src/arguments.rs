@@ -230,8 +230,8 @@ pub struct Reconstruct {
 #[derive(Debug, Args)]
 pub struct Forces {
     /// Points on the rod, a CSV file with the columns frame,x,y and perhaps sigma: one row a point, in order from the base to the tip. Or measured
-    /// numbers at its base, one row a frame: any of x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), base_x,base_y,base_phi, kappa@S (1/m, at the arc
-    /// length S in m), each perhaps with sigma_...
+    /// numbers at its base, one row a frame: any of x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), base_x,base_y,base_phi, and at the
+    /// arc length S in m kappa@S (1/m), x@S, y@S (m), phi@S (rad), each perhaps with sigma_...
     #[arg(value_name = "FRAMES")]
     pub frames: PathBuf,
     /// The rod, a TOML file with the table [rod] of a scene, or a scene. Without bending_stiffness and youngs_modulus forces are in EI/L^2

@@ -107,6 +107,45 @@ fn what_is_no_film_is_told() {
     }
 }
 
+/// Markers on the rod, where its base is known, tell what as many points tell.
+#[test]
+fn markers_tell_place_and_force() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    fs::write(path.join("rod.toml"), ROD).unwrap();
+    // one every 10 mm
+    let marks = points(11);
+    fs::write(path.join("frames.csv"), table(&[points(40)])).unwrap();
+    assert!(vibrissa(path, &["forces", "frames.csv", "--rod", "rod.toml", "--out", "whole"]).status.success());
+    let whole = lines(&path.join("whole/forces.jsonl")).remove(0);
+    let base = ["x0", "y0", "phi0"].map(|name| format!("{:?}", whole[name].as_f64().unwrap())).join(",");
+    let [[x, y], [end, height]] = [marks[3], marks[10]];
+    // the slope beyond the contact is 0
+    let text = format!(
+        "x0,y0,phi0,x@0.03,y@0.03,x@0.1,y@0.1,phi@0.1,sigma_phi@0.1\n{base},{x:?},{y:?},{end:?},{height:?},0,1e-4\n"
+    );
+    fs::write(path.join("marks.csv"), text).unwrap();
+    let output = vibrissa(path, &["forces", "marks.csv", "--rod", "rod.toml"]);
+    assert!(output.status.success(), "{}", complaint(&output));
+    let found = lines(&path.join("out/marks/forces.jsonl")).remove(0);
+    let of = |key: &str| found[key].as_f64().unwrap();
+    assert!((of("s") - 0.06).abs() < 1e-5 && (of("force") - 4e-4).abs() < 1e-7, "{found}");
+    assert!(of("chi2") < 1e-4 && of("freedom") == 3.0, "{found}");
+    // a marker elsewhere contradicts it
+    fs::write(
+        path.join("off.csv"),
+        format!("x0,y0,phi0,x@0.03,y@0.03,x@0.1,y@0.1,phi@0.1\n{base},{x:?},0.03,{end:?},{height:?},0\n"),
+    )
+    .unwrap();
+    let output = vibrissa(path, &["forces", "off.csv", "--rod", "rod.toml"]);
+    let found = lines(&path.join("out/off/forces.jsonl")).remove(0);
+    assert_eq!(found["verdict"], "not explained", "{found} {}", complaint(&output));
+    fs::write(path.join("beyond.csv"), "x0,x@0.2,phi@tip\n0,0,0\n").unwrap();
+    let output = vibrissa(path, &["forces", "beyond.csv", "--rod", "rod.toml"]);
+    let expected = "beyond.csv: x@0.2 is at `0.2`, expected an arc length in m, from 0 to 0.1, the length of the rod\nphi@tip is at `tip`";
+    assert!(output.status.code() == Some(1) && complaint(&output).contains(expected), "{}", complaint(&output));
+}
+
 /// Axial force and moment of a frictionless contact on the side of a uniform rod are one number, F = -M^2 / 2 E I; across and moment are two.
 #[test]
 fn a_part_of_the_base_signal_tells_what_it_tells() {

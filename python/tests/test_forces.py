@@ -51,6 +51,21 @@ def test_channels_alone_and_what_they_cannot_tell() -> None:
     assert len(moment.family) == 20 * len(states)
 
 
+def test_markers_tell_as_points_do() -> None:
+    states, _ = swept()
+    x0, y0, phi0 = np.array([state.pose for state in states]).T
+    # at every 10 mm
+    x, y, phi = np.array([state.shape(ROD, 11)[[3, 7, 10], :3] for state in states]).T
+    columns = {"x0": x0, "y0": y0, "phi0": phi0}
+    for k, place in enumerate(("0.03", "0.07", "0.1")):
+        columns |= {f"x@{place}": x[k], f"y@{place}": y[k], f"phi@{place}": phi[k]}
+        columns |= {f"sigma_{name}@{place}": np.full(len(states), 1e-6) for name in ("x", "y", "phi")}
+    found = vibrissa.forces(ROD, channels=columns).frames
+    assert (found["verdict"] == "told").sum() > len(states) / 2
+    assert np.allclose(found["m0z"], [state.reactions[2] for state in states], rtol=1e-3, atol=1e-9)
+    assert np.allclose(found["s"], [state.contacts[0].s for state in states], atol=1e-5)
+
+
 def test_frames_of_all_kinds_are_the_same() -> None:
     _, points = swept()
     with_gap = [np.vstack([one[:20], [[np.nan, np.nan]], one[20:]]) for one in points[:3]]
@@ -120,6 +135,7 @@ def test_mistakes_are_sentences() -> None:
         ({"frames": points[:1], "contacts": 3}, "contacts is 3, expected 0, 1 or 2"),
         ({"frames": points[:1], "channels": {"f0x": [1.0, 2.0]}}, "the channels have 2 rows, expected one a frame: 1"),
         ({"channels": {"torque": [1.0]}}, "torque is no measured number, expected frame, x, y for points"),
+        ({"channels": {"x@0.2": [1.0], "phi@tip": [0.0]}}, r"x@0.2 is at `0.2`, expected an arc length in m, from 0 to 0.1, the length of the rod\nphi@tip"),
         ({"frames": points[:1], "rest": [np.zeros((2, 2))]}, "rest: no frame has 5 points or more and shows an end"),
         ({}, "neither frames nor channels are given"),
     ]:

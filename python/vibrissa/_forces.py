@@ -71,7 +71,8 @@ def forces(
         Frames in which nothing touches the rod, of 5 points or more: its curvature at rest is found from them, in place of that of `rod`.
     channels : mapping of names to arrays, optional
         Measured numbers, one a frame: any of ``x0``, ``y0`` (m), ``phi0`` (rad) of the support, ``base_x``, ``base_y``, ``base_phi`` of the base,
-        ``f0x``, ``f0y`` (N), ``m0z`` (N m), ``kappa@S`` (1/m, at the arc length S in m), and their standard deviations ``sigma_...``.
+        ``f0x``, ``f0y`` (N), ``m0z`` (N m), at the arc length S in m ``kappa@S`` (curvature, 1/m) and ``x@S``, ``y@S`` (m),
+        ``phi@S`` (rad) of a marker, and their standard deviations ``sigma_...``.
         NaN where one was not measured.
     visible : str
         Which ends of the rod the points show: ``"base"`` (the first point), ``"tip"`` (the last), ``"both"`` or ``"neither"``.

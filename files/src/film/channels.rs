@@ -4,15 +4,17 @@ use super::error::FilmError;
 use super::table::{Numbers, is_deviation};
 use vibrissa::reconstruct::{Axis, Channel, Measurand};
 
-const EXPECTED: &str = "frame, x, y for points on the rod, or measured numbers: any of x0, y0, phi0 (pose of the support), base_x, base_y, base_phi (of the base), f0x, f0y, m0z, kappa@S (curvature at the arc \
-     length S in m), each perhaps with a column sigma_...";
+const EXPECTED: &str = "frame, x, y for points on the rod, or measured numbers: any of x0, y0, phi0 (pose of the support), base_x, base_y, base_phi (of the base), f0x, f0y, m0z, and at the arc length S in m \
+     kappa@S (curvature), x@S, y@S, phi@S (position and slope angle of a marker), each perhaps with a column sigma_...";
 
 /// Standard deviation of a position (m, as a share of the length of the rod) and angle (rad) that no column tells: as good as
 /// exact beside what stages are.
 const EXACT: f64 = 1e-6;
 /// Standard deviation of a reaction or curvature that no column tells, as a share of the largest one: rows need not be neighbours in time, so that
-/// their scatter says nothing.
+/// their scatter says nothing. Of a marker as a share of the length, and in rad: its coordinates depend on the origin.
 const SHARE: f64 = 1e-3;
+/// Relative rounding of an arc length at the tip.
+const ROUNDING: f64 = 1e-9;
 
 /// A column of measured numbers with its standard deviations, none where a cell has none.
 struct Column {
@@ -22,12 +24,18 @@ struct Column {
 
 /// The measured numbers of each row, with the number of its frame: that of its column `frame`, or of the row, from 0.
 pub(super) fn channels(mut table: Numbers, length: f64) -> Result<Vec<(i64, Vec<Channel>)>, FilmError> {
-    let named: Vec<(usize, Measurand, Option<usize>)> = table
-        .names()
-        .iter()
-        .enumerate()
-        .filter_map(|(column, name)| Some((column, quantity(name)?, table.column(&format!("sigma_{name}")))))
-        .collect();
+    let mut named: Vec<(usize, Measurand, Option<usize>)> = Vec::new();
+    let mut faults = Vec::new();
+    for (column, name) in table.names().iter().enumerate() {
+        match quantity(name, length) {
+            Ok(Some(quantity)) => named.push((column, quantity, table.column(&format!("sigma_{name}")))),
+            Ok(None) => {}
+            Err(fault) => faults.push(fault),
+        }
+    }
+    if !faults.is_empty() {
+        return Err(FilmError::Columns { file: table.file, faults });
+    }
     if named.is_empty() {
         return Err(FilmError::Missing {
             file: table.file.clone(),
@@ -74,9 +82,17 @@ pub fn channels_of_columns(columns: &[(String, Vec<f64>)], length: f64) -> Resul
             faults.push(format!("{name} has {} rows, expected {count} as {}", values.len(), columns[0].0));
         }
         let base = name.strip_prefix("sigma_").unwrap_or(name);
-        let Some(quantity) = quantity(base) else {
-            faults.push(format!("{name} is no measured number, expected {EXPECTED}"));
-            continue;
+        let quantity = match quantity(base, length) {
+            Ok(Some(quantity)) => quantity,
+            Ok(None) => {
+                faults.push(format!("{name} is no measured number, expected {EXPECTED}"));
+                continue;
+            }
+            // told of the number itself
+            Err(fault) => {
+                faults.extend((base == name).then_some(fault));
+                continue;
+            }
         };
         if base != name {
             if values.iter().any(|sigma| !sigma.is_nan() && !is_deviation(*sigma)) {
@@ -114,10 +130,26 @@ fn with_noise(columns: &[Column], rows: usize, length: f64) -> Vec<Vec<Channel>>
     (0..rows).map(of).collect()
 }
 
-/// What a column measures.
-fn quantity(name: &str) -> Option<Measurand> {
+/// What a column measures on a rod of `length` (m): nothing, if it has another name; an error, if it is at no place of the rod.
+fn quantity(name: &str, length: f64) -> Result<Option<Measurand>, String> {
+    if let Some((kind, place)) = name.split_once('@') {
+        let at: fn(f64) -> Measurand = match kind {
+            "kappa" => Measurand::Curvature,
+            "x" => |s| Measurand::Marker(s, Axis::X),
+            "y" => |s| Measurand::Marker(s, Axis::Y),
+            "phi" => |s| Measurand::Marker(s, Axis::Angle),
+            _ => return Ok(None),
+        };
+        let is_on_rod = |s: &f64| (0.0..=length * (1.0 + ROUNDING)).contains(s);
+        return match place.parse().ok().filter(is_on_rod) {
+            Some(s) => Ok(Some(at(s))),
+            None => Err(format!(
+                "{name} is at `{place}`, expected an arc length in m, from 0 to {length:?}, the length of the rod"
+            )),
+        };
+    }
     let reaction = |k: usize| Measurand::Reaction(std::array::from_fn(|i| f64::from(u8::from(i == k))));
-    Some(match name {
+    Ok(Some(match name {
         "x0" => Measurand::Support(Axis::X),
         "y0" => Measurand::Support(Axis::Y),
         "phi0" => Measurand::Support(Axis::Angle),
@@ -127,8 +159,8 @@ fn quantity(name: &str) -> Option<Measurand> {
         "f0x" => reaction(0),
         "f0y" => reaction(1),
         "m0z" => reaction(2),
-        _ => Measurand::Curvature(name.strip_prefix("kappa@")?.parse().ok()?),
-    })
+        _ => return Ok(None),
+    }))
 }
 
 /// The noise of a channel that no column tells.
@@ -136,7 +168,57 @@ fn sigma_of(quantity: Measurand, values: &[f64], length: f64) -> f64 {
     match quantity {
         Measurand::Support(Axis::Angle) | Measurand::Base(Axis::Angle) => return EXACT,
         Measurand::Support(_) | Measurand::Base(_) => return EXACT * length,
+        Measurand::Marker(_, Axis::Angle) => return SHARE,
+        Measurand::Marker(..) => return SHARE * length,
         _ => {}
     }
     SHARE * values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LENGTH: f64 = 0.1;
+
+    #[test]
+    fn names_say_what_is_measured() {
+        for (name, expected) in [
+            ("m0z", Some(Measurand::Reaction([0.0, 0.0, 1.0]))),
+            ("kappa@0.02", Some(Measurand::Curvature(0.02))),
+            ("x@0.03", Some(Measurand::Marker(0.03, Axis::X))),
+            ("y@3e-2", Some(Measurand::Marker(0.03, Axis::Y))),
+            ("phi@0.1", Some(Measurand::Marker(0.1, Axis::Angle))),
+            ("phi@0", Some(Measurand::Marker(0.0, Axis::Angle))),
+            ("f@0.1", None),
+            ("x", None),
+        ] {
+            assert_eq!(quantity(name, LENGTH), Ok(expected), "{name}");
+        }
+    }
+
+    #[test]
+    fn what_is_told_is_on_the_rod() {
+        let given = |name: &str| (name.to_owned(), vec![0.1]);
+        let wrong = ["x@0.2", "kappa@-0.01", "phi@tip", "y@nan", "sigma_x@0.2", "m0z", "force"];
+        let faults = channels_of_columns(&wrong.map(given), LENGTH).unwrap_err();
+        let faults: Vec<&str> = faults.lines().collect();
+        assert_eq!(faults.len(), 5, "{faults:?}");
+        for (fault, name) in
+            faults.iter().zip(["x@0.2 is at `0.2`", "kappa@-0.01 is at", "phi@tip is at", "y@nan is at"])
+        {
+            assert!(fault.starts_with(name) && fault.contains("from 0 to 0.1, the length of the rod"), "{fault}");
+        }
+        assert!(faults[4].starts_with("force is no measured number, expected frame, x, y"), "{}", faults[4]);
+    }
+
+    #[test]
+    fn markers_without_a_deviation_have_a_thousandth_of_the_length() {
+        let columns =
+            [("x@0.05", vec![7.0]), ("phi@0.05", vec![0.3]), ("y@0.05", vec![1.0]), ("sigma_y@0.05", vec![2e-5])];
+        let columns = columns.map(|(name, values)| (name.to_owned(), values));
+        let rows = channels_of_columns(&columns, LENGTH).unwrap();
+        let sigmas: Vec<f64> = rows[0].iter().map(|channel| channel.sigma).collect();
+        assert_eq!(sigmas, [1e-3 * LENGTH, 1e-3, 2e-5]);
+    }
 }

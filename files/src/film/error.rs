@@ -28,6 +28,14 @@ pub enum FilmError {
         /// What a table has.
         expected: &'static str,
     },
+    /// Columns that no rod of this length has.
+    #[error("{}: {}", file.display(), faults.join("\n"))]
+    Columns {
+        /// Which file.
+        file: PathBuf,
+        /// Each with its name and what was expected.
+        faults: Vec<String>,
+    },
     /// Rows that cannot be used, the first ones.
     #[error("{}: {}", file.display(), faults.join("\n"))]
     Rows {
