@@ -230,7 +230,7 @@ pub struct Reconstruct {
 #[derive(Debug, Args)]
 pub struct Forces {
     /// Points on the rod, a CSV file with the columns frame,x,y and perhaps sigma: one row a point, in order from the base to the tip. Or measured
-    /// numbers at its base, one row a frame: any of x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), base_x,base_y,base_phi, and at the
+    /// numbers at its base, one row a frame: any of x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), those of a sensor (--setup), base_x,base_y,base_phi, and at the
     /// arc length S in m kappa@S (1/m), x@S, y@S (m), phi@S (rad), each perhaps with sigma_...
     #[arg(value_name = "FRAMES")]
     pub frames: PathBuf,
@@ -246,6 +246,10 @@ pub struct Forces {
     /// Measured numbers beside the points, a CSV file with the column frame and columns as FRAMES may have them
     #[arg(long, value_name = "FILE")]
     pub channels: Option<PathBuf>,
+    /// How the sensor sits whose components Fx,Fy,Fz (N), Tx,Ty,Tz (N m) are columns of measured numbers: the table [mounting] of a TOML file, as for
+    /// `live` [default: in the axes of the frames, at the base]
+    #[arg(long, value_name = "FILE")]
+    pub setup: Option<PathBuf>,
     /// Metres per unit of x and y, as the size of a pixel
     #[arg(long, value_name = "METRES", value_parser = positive, default_value_t = 1.0, allow_negative_numbers = true)]
     pub scale: f64,

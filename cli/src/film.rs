@@ -4,7 +4,7 @@ use crate::arguments::{Forces, Visible};
 use crate::error::Error;
 use crate::progress::stage;
 use crate::{UNFINISHED, say, signals, warn};
-use rod_files::{Ends, FilmForces, FilmOptions, Staged, read_filmed_rod};
+use rod_files::{Ends, FilmForces, FilmOptions, Setup, Staged, read_filmed_rod};
 use std::path::Path;
 use std::process::ExitCode;
 use vibrissa::reconstruct::ForceSettings;
@@ -20,6 +20,7 @@ pub fn forces(arguments: Forces) -> Result<ExitCode, Error> {
         rest,
         length,
         channels,
+        setup,
         scale,
         image,
         visible,
@@ -38,8 +39,10 @@ pub fn forces(arguments: Forces) -> Result<ExitCode, Error> {
         Visible::Both => Ends::Both,
         Visible::Neither => Ends::Neither,
     };
-    let inputs = [frames.clone(), rod].into_iter().chain(rest.clone()).chain(channels.clone()).collect();
-    let options = FilmOptions { scale, image, ends, channels, rest, settings };
+    let mounting = setup.as_deref().map_or_else(|| Ok(Setup::default()), Setup::read)?.mounting;
+    let named = rest.clone().into_iter().chain(channels.clone()).chain(setup);
+    let inputs = [frames.clone(), rod].into_iter().chain(named).collect();
+    let options = FilmOptions { scale, image, ends, channels, mounting, rest, settings };
     stage(&format!("{}: finding the forces", frames.display()));
     let found = FilmForces::read(&frames, filmed, &options)?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&found.name));

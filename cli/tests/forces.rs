@@ -146,6 +146,42 @@ fn markers_tell_place_and_force() {
     assert!(output.status.code() == Some(1) && complaint(&output).contains(expected), "{}", complaint(&output));
 }
 
+/// A sensor that is turned and sits at a lever measures combinations of the reactions.
+#[test]
+fn a_sensor_is_mounted() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    fs::write(path.join("rod.toml"), ROD).unwrap();
+    fs::write(path.join("frames.csv"), table(&[points(40)])).unwrap();
+    assert!(vibrissa(path, &["forces", "frames.csv", "--rod", "rod.toml", "--out", "whole"]).status.success());
+    let whole = lines(&path.join("whole/forces.jsonl")).remove(0);
+    let [x0, y0, phi0, f0x, f0y, m0z] =
+        ["x0", "y0", "phi0", "f0x", "f0y", "m0z"].map(|name| whole[name].as_f64().unwrap());
+    // turned by 30 degrees, the clamp 3 mm along its x and 12 mm along its y; it feels the opposite of what the rod does
+    let (sin, cos) = 30.0_f64.to_radians().sin_cos();
+    let (fx, fy) = (-(cos * f0x + sin * f0y), -(cos * f0y - sin * f0x));
+    let torque = -m0z + 0.003 * fy - 0.012 * fx;
+    let row = format!("{x0:?},{y0:?},{phi0:?},{fx:?},{fy:?},0,{torque:?}");
+    fs::write(path.join("felt.csv"), format!("x0,y0,phi0,Fx,Fy,Fz,Tz\n{row}\n")).unwrap();
+    fs::write(path.join("setup.toml"), "[mounting]\nangle = 30.0\nlever = [0.003, 0.012, 0.0]\n").unwrap();
+    let told = |arguments: &[&str]| {
+        let output = vibrissa(path, &[&["forces", "felt.csv", "--rod", "rod.toml"], arguments].concat());
+        (lines(&path.join("out/felt/forces.jsonl")).remove(0), complaint(&output))
+    };
+    let (found, said) = told(&["--setup", "setup.toml"]);
+    let of = |key: &str| found[key].as_f64().unwrap();
+    assert_eq!(found["verdict"], "told", "{found} {said}");
+    assert!((of("s") - 0.06).abs() < 1e-5 && (of("force") - 4e-4).abs() < 1e-7, "{found}");
+    // taken as if it sat at the base, it is another contact or none
+    let (found, _) = told(&[]);
+    assert!(found["verdict"] != "told" || (found["force"].as_f64().unwrap() - 4e-4).abs() > 1e-5, "{found}");
+    // it turns with the clamp, whose angle now is not known
+    fs::write(path.join("setup.toml"), "[mounting]\nturns_from = 90.0\n").unwrap();
+    fs::write(path.join("felt.csv"), "x0,Fx\n0,1\n").unwrap();
+    let output = vibrissa(path, &["forces", "felt.csv", "--rod", "rod.toml", "--setup", "setup.toml"]);
+    assert!(output.status.code() == Some(1) && complaint(&output).contains("expected phi0"), "{}", complaint(&output));
+}
+
 /// Axial force and moment of a frictionless contact on the side of a uniform rod are one number, F = -M^2 / 2 E I; across and moment are two.
 #[test]
 fn a_part_of_the_base_signal_tells_what_it_tells() {

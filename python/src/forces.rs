@@ -6,7 +6,8 @@ use crate::{errors, running};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rod_files::{FilmForces, FilmedRod, channels_of_columns};
+use rod_files::{FilmForces, FilmedRod, Setup, channels_of_columns};
+use std::path::PathBuf;
 use vibrissa::reconstruct::{FamilyMember, ForceSettings, Frame, FrameContact, FrameFault, FrameForces, SeenPoint};
 
 /// A frame with its number.
@@ -245,7 +246,7 @@ impl FlatFrames {
 
 /// Forces from frames in one piece; `vibrissa.forces` calls it.
 #[pyfunction]
-#[pyo3(signature = (rod, frames, rest, channels, visible, sigma, friction, contacts, shortening))]
+#[pyo3(signature = (rod, frames, rest, channels, setup, visible, sigma, friction, contacts, shortening))]
 #[allow(clippy::too_many_arguments, reason = "the keywords of the function in Python")]
 pub fn _forces(
     py: Python<'_>,
@@ -253,6 +254,7 @@ pub fn _forces(
     frames: FlatFrames,
     rest: Option<FlatFrames>,
     channels: Option<Vec<(String, Floats<'_>)>>,
+    setup: Option<PathBuf>,
     visible: &str,
     sigma: Option<f64>,
     friction: f64,
@@ -276,7 +278,8 @@ pub fn _forces(
     if let Some(channels) = channels {
         let columns: Vec<(String, Vec<f64>)> =
             channels.into_iter().map(|(name, values)| (name, values.view().iter().copied().collect())).collect();
-        let rows = channels_of_columns(&columns, rod.rod.length()).map_err(errors::value)?;
+        let setup = setup.map_or_else(|| Ok(Setup::default()), |file| Setup::read(&file)).map_err(errors::file)?;
+        let rows = channels_of_columns(&columns, rod.rod.length(), &setup.mounting).map_err(errors::value)?;
         if rows.len() != all.len() {
             return Err(errors::value(format!(
                 "the channels have {} rows, expected one a frame: {}",

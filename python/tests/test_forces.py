@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -64,6 +65,21 @@ def test_markers_tell_as_points_do() -> None:
     assert (found["verdict"] == "told").sum() > len(states) / 2
     assert np.allclose(found["m0z"], [state.reactions[2] for state in states], rtol=1e-3, atol=1e-9)
     assert np.allclose(found["s"], [state.contacts[0].s for state in states], atol=1e-5)
+
+
+def test_a_sensor_is_mounted(tmp_path: Path) -> None:
+    states, _ = swept()
+    x0, y0, phi0 = np.array([state.pose for state in states]).T
+    f0x, f0y, m0z = np.array([state.reactions for state in states]).T
+    # its x along y of the scene, the clamp 12 mm along its y
+    columns = {"x0": x0, "y0": y0, "phi0": phi0, "Fx": -f0y, "Fy": f0x, "Tz": -m0z + 0.012 * f0y}
+    setup = tmp_path / "setup.toml"
+    setup.write_text("[mounting]\nangle = 90.0\nlever = [0.0, 0.012, 0.0]\n")
+    found = vibrissa.forces(ROD, channels=columns, setup=setup)
+    assert (found.frames["verdict"] == "told").all()
+    assert np.allclose(found.frames["s"], [state.contacts[0].s for state in states], atol=1e-6)
+    with pytest.raises(FileNotFoundError):
+        vibrissa.forces(ROD, channels=columns, setup=tmp_path / "none.toml")
 
 
 def test_frames_of_all_kinds_are_the_same() -> None:

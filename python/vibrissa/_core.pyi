@@ -540,6 +540,7 @@ def _forces(
     frames: Any,
     rest: Any,
     channels: list[tuple[str, npt.NDArray[np.float64]]] | None,
+    setup: str | PathLike[str] | None,
     visible: str,
     sigma: float | None,
     friction: float,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from os import PathLike
 from typing import Literal
 
 import numpy as np
@@ -49,6 +50,7 @@ def forces(
     *,
     rest: FramesLike | None = None,
     channels: Mapping[str, npt.ArrayLike] | None = None,
+    setup: str | PathLike[str] | None = None,
     visible: Literal["base", "tip", "both", "neither"] = "base",
     sigma: float | None = None,
     friction: float = 0.0,
@@ -73,7 +75,10 @@ def forces(
         Measured numbers, one a frame: any of ``x0``, ``y0`` (m), ``phi0`` (rad) of the support, ``base_x``, ``base_y``, ``base_phi`` of the base,
         ``f0x``, ``f0y`` (N), ``m0z`` (N m), at the arc length S in m ``kappa@S`` (curvature, 1/m) and ``x@S``, ``y@S`` (m),
         ``phi@S`` (rad) of a marker, and their standard deviations ``sigma_...``.
-        NaN where one was not measured.
+        Also ``Fx``, ``Fy``, ``Fz`` (N), ``Tx``, ``Ty``, ``Tz`` (N m) of a force/torque sensor. NaN where one was not measured.
+    setup : str or os.PathLike, optional
+        How that sensor sits: the table ``[mounting]`` of a setup file. Without it, in the axes of x and y and at the base; it measures the load of
+        the rod on it.
     visible : str
         Which ends of the rod the points show: ``"base"`` (the first point), ``"tip"`` (the last), ``"both"`` or ``"neither"``.
     sigma : float, optional
@@ -110,7 +115,7 @@ def forces(
             raise ValueError("neither frames nor channels are given, expected points on the rod, measured numbers at its base, or both")
         frames = [np.empty((0, 2))] * len(columns[0][1])
     free = None if rest is None else _flat(rest, "rest")
-    return _forces(rod, _flat(frames, "frames"), free, columns, visible, sigma, friction, contacts, shortening)
+    return _forces(rod, _flat(frames, "frames"), free, columns, setup, visible, sigma, friction, contacts, shortening)
 
 
 __all__: Sequence[str] = ["forces"]

@@ -1,10 +1,12 @@
 //! Measured numbers at the base from a table with any of the columns of a recording.
 
 use super::error::FilmError;
+use super::sensor;
 use super::table::{Numbers, is_deviation};
+use vibrissa::hw::Mounting;
 use vibrissa::reconstruct::{Axis, Channel, Measurand};
 
-const EXPECTED: &str = "frame, x, y for points on the rod, or measured numbers: any of x0, y0, phi0 (pose of the support), base_x, base_y, base_phi (of the base), f0x, f0y, m0z, and at the arc length S in m \
+const EXPECTED: &str = "frame, x, y for points on the rod, or measured numbers: any of x0, y0, phi0 (pose of the support), base_x, base_y, base_phi (of the base), f0x, f0y, m0z, Fx, Fy, Fz, Tx, Ty, Tz (of a sensor), and at the arc length S in m \
      kappa@S (curvature), x@S, y@S, phi@S (position and slope angle of a marker), each perhaps with a column sigma_...";
 
 /// Standard deviation of a position (m, as a share of the length of the rod) and angle (rad) that no column tells: as good as
@@ -16,15 +18,27 @@ const SHARE: f64 = 1e-3;
 /// Relative rounding of an arc length at the tip.
 const ROUNDING: f64 = 1e-9;
 
+/// What a column measures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Quantity {
+    Of(Measurand),
+    /// A component of a sensor, by its number.
+    Sensor(usize),
+}
+
 /// A column of measured numbers with its standard deviations, none where a cell has none.
 struct Column {
-    quantity: Measurand,
+    quantity: Quantity,
     cells: Vec<Option<(f64, Option<f64>)>>,
 }
 
 /// The measured numbers of each row, with the number of its frame: that of its column `frame`, or of the row, from 0.
-pub(super) fn channels(mut table: Numbers, length: f64) -> Result<Vec<(i64, Vec<Channel>)>, FilmError> {
-    let mut named: Vec<(usize, Measurand, Option<usize>)> = Vec::new();
+pub(super) fn channels(
+    mut table: Numbers,
+    length: f64,
+    mounting: &Mounting,
+) -> Result<Vec<(i64, Vec<Channel>)>, FilmError> {
+    let mut named: Vec<(usize, Quantity, Option<usize>)> = Vec::new();
     let mut faults = Vec::new();
     for (column, name) in table.names().iter().enumerate() {
         match quantity(name, length) {
@@ -62,18 +76,24 @@ pub(super) fn channels(mut table: Numbers, length: f64) -> Result<Vec<(i64, Vec<
         })
         .collect();
     table.check()?;
-    let rows = with_noise(&columns, numbers.len(), length);
+    let rows = with_noise(&columns, numbers.len(), length, mounting)
+        .map_err(|fault| FilmError::Columns { file: table.file, faults: vec![fault] })?;
     Ok(numbers.into_iter().zip(rows).filter_map(|(number, row)| Some((number?, row))).collect())
 }
 
 /// What is expected of a standard deviation.
 const DEVIATION: &str = "expected a standard deviation, or nothing";
 
-/// The measured numbers of each row of columns as a table has them, by name; NaN where there is none. Of a rod of `length` (m).
+/// The measured numbers of each row of columns as a table has them, by name; NaN where there is none. Of a rod of `length` (m) and a sensor that
+/// sits by `mounting`.
 ///
 /// # Errors
 /// Columns of another name or another length, and standard deviations that are none, all at once.
-pub fn channels_of_columns(columns: &[(String, Vec<f64>)], length: f64) -> Result<Vec<Vec<Channel>>, String> {
+pub fn channels_of_columns(
+    columns: &[(String, Vec<f64>)],
+    length: f64,
+    mounting: &Mounting,
+) -> Result<Vec<Vec<Channel>>, String> {
     let count = columns.first().map_or(0, |column| column.1.len());
     let mut faults = Vec::new();
     let mut found = Vec::new();
@@ -111,27 +131,45 @@ pub fn channels_of_columns(columns: &[(String, Vec<f64>)], length: f64) -> Resul
         };
         found.push(Column { quantity, cells: values.iter().enumerate().map(cell).collect() });
     }
-    if faults.is_empty() { Ok(with_noise(&found, count, length)) } else { Err(faults.join("\n")) }
+    if faults.is_empty() { with_noise(&found, count, length, mounting) } else { Err(faults.join("\n")) }
 }
 
 /// The channels of each row; those whose noise no column tells have that of their column.
-fn with_noise(columns: &[Column], rows: usize, length: f64) -> Vec<Vec<Channel>> {
+fn with_noise(columns: &[Column], rows: usize, length: f64, mounting: &Mounting) -> Result<Vec<Vec<Channel>>, String> {
     let noise = columns.iter().map(|Column { quantity, cells }| {
         sigma_of(*quantity, &cells.iter().flatten().map(|(value, _)| *value).collect::<Vec<_>>(), length)
     });
     let noise: Vec<f64> = noise.collect();
+    let turns = sensor::turns(mounting);
     let of = |row: usize| {
-        let cells = columns.iter().zip(&noise).filter_map(|(Column { quantity, cells }, noise)| {
-            let (value, sigma) = cells[row]?;
-            Some(Channel { quantity: *quantity, value, sigma: sigma.unwrap_or(*noise) })
-        });
-        cells.collect()
+        let angle = |of: fn(Axis) -> Measurand| {
+            let column = columns.iter().find(|column| column.quantity == Quantity::Of(of(Axis::Angle)))?;
+            column.cells[row].map(|(angle, _)| angle)
+        };
+        let phi = angle(Measurand::Support).or_else(|| angle(Measurand::Base));
+        let mut channels = Vec::new();
+        for (Column { quantity, cells }, noise) in columns.iter().zip(&noise) {
+            let Some((value, sigma)) = cells[row] else { continue };
+            let quantity = match quantity {
+                Quantity::Of(quantity) => Some(*quantity),
+                Quantity::Sensor(_) if turns && phi.is_none() => {
+                    return Err(format!(
+                        "row {row} (from 0): the sensor turns with the clamp, expected phi0 beside its numbers"
+                    ));
+                }
+                Quantity::Sensor(component) => sensor::combination(mounting, *component, phi.unwrap_or_default()),
+            };
+            // what is across the plane tells nothing
+            let Some(quantity) = quantity else { continue };
+            channels.push(Channel { quantity, value, sigma: sigma.unwrap_or(*noise) });
+        }
+        Ok(channels)
     };
     (0..rows).map(of).collect()
 }
 
 /// What a column measures on a rod of `length` (m): nothing, if it has another name; an error, if it is at no place of the rod.
-fn quantity(name: &str, length: f64) -> Result<Option<Measurand>, String> {
+fn quantity(name: &str, length: f64) -> Result<Option<Quantity>, String> {
     if let Some((kind, place)) = name.split_once('@') {
         let at: fn(f64) -> Measurand = match kind {
             "kappa" => Measurand::Curvature,
@@ -142,14 +180,17 @@ fn quantity(name: &str, length: f64) -> Result<Option<Measurand>, String> {
         };
         let is_on_rod = |s: &f64| (0.0..=length * (1.0 + ROUNDING)).contains(s);
         return match place.parse().ok().filter(is_on_rod) {
-            Some(s) => Ok(Some(at(s))),
+            Some(s) => Ok(Some(Quantity::Of(at(s)))),
             None => Err(format!(
                 "{name} is at `{place}`, expected an arc length in m, from 0 to {length:?}, the length of the rod"
             )),
         };
     }
+    if let Some(component) = sensor::component(name) {
+        return Ok(Some(Quantity::Sensor(component)));
+    }
     let reaction = |k: usize| Measurand::Reaction(std::array::from_fn(|i| f64::from(u8::from(i == k))));
-    Ok(Some(match name {
+    Ok(Some(Quantity::Of(match name {
         "x0" => Measurand::Support(Axis::X),
         "y0" => Measurand::Support(Axis::Y),
         "phi0" => Measurand::Support(Axis::Angle),
@@ -160,11 +201,12 @@ fn quantity(name: &str, length: f64) -> Result<Option<Measurand>, String> {
         "f0y" => reaction(1),
         "m0z" => reaction(2),
         _ => return Ok(None),
-    }))
+    })))
 }
 
 /// The noise of a channel that no column tells.
-fn sigma_of(quantity: Measurand, values: &[f64], length: f64) -> f64 {
+fn sigma_of(quantity: Quantity, values: &[f64], length: f64) -> f64 {
+    let Quantity::Of(quantity) = quantity else { return share_of_largest(values) };
     match quantity {
         Measurand::Support(Axis::Angle) | Measurand::Base(Axis::Angle) => return EXACT,
         Measurand::Support(_) | Measurand::Base(_) => return EXACT * length,
@@ -172,6 +214,10 @@ fn sigma_of(quantity: Measurand, values: &[f64], length: f64) -> f64 {
         Measurand::Marker(..) => return SHARE * length,
         _ => {}
     }
+    share_of_largest(values)
+}
+
+fn share_of_largest(values: &[f64]) -> f64 {
     SHARE * values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
 }
 
@@ -180,6 +226,10 @@ mod tests {
     use super::*;
 
     const LENGTH: f64 = 0.1;
+
+    fn at_base() -> Mounting {
+        Mounting::new(vibrissa::hw::Frame::same())
+    }
 
     #[test]
     fn names_say_what_is_measured() {
@@ -193,7 +243,7 @@ mod tests {
             ("f@0.1", None),
             ("x", None),
         ] {
-            assert_eq!(quantity(name, LENGTH), Ok(expected), "{name}");
+            assert_eq!(quantity(name, LENGTH), Ok(expected.map(Quantity::Of)), "{name}");
         }
     }
 
@@ -201,7 +251,7 @@ mod tests {
     fn what_is_told_is_on_the_rod() {
         let given = |name: &str| (name.to_owned(), vec![0.1]);
         let wrong = ["x@0.2", "kappa@-0.01", "phi@tip", "y@nan", "sigma_x@0.2", "m0z", "force"];
-        let faults = channels_of_columns(&wrong.map(given), LENGTH).unwrap_err();
+        let faults = channels_of_columns(&wrong.map(given), LENGTH, &at_base()).unwrap_err();
         let faults: Vec<&str> = faults.lines().collect();
         assert_eq!(faults.len(), 5, "{faults:?}");
         for (fault, name) in
@@ -213,11 +263,25 @@ mod tests {
     }
 
     #[test]
+    fn a_sensor_that_turns_needs_the_angle_of_the_clamp() {
+        let turning = at_base().turning_with_clamp(0.0).unwrap();
+        let column = |name: &str| (name.to_owned(), vec![0.5]);
+        let rows = channels_of_columns(&["Fx", "Fz", "phi0"].map(column), LENGTH, &turning).unwrap();
+        // across the plane is nothing
+        assert_eq!(rows[0].len(), 2, "{rows:?}");
+        let Measurand::Reaction([x, y, moment]) = rows[0][0].quantity else { panic!("{rows:?}") };
+        assert!((x + 0.5_f64.cos()).abs() + (y + 0.5_f64.sin()).abs() + moment.abs() < 1e-15, "{rows:?}");
+        let fault = channels_of_columns(&["Fx"].map(column), LENGTH, &turning).unwrap_err();
+        assert!(fault.contains("turns with the clamp, expected phi0"), "{fault}");
+        assert_eq!(channels_of_columns(&["Fx"].map(column), LENGTH, &at_base()).unwrap()[0].len(), 1);
+    }
+
+    #[test]
     fn markers_without_a_deviation_have_a_thousandth_of_the_length() {
         let columns =
             [("x@0.05", vec![7.0]), ("phi@0.05", vec![0.3]), ("y@0.05", vec![1.0]), ("sigma_y@0.05", vec![2e-5])];
         let columns = columns.map(|(name, values)| (name.to_owned(), values));
-        let rows = channels_of_columns(&columns, LENGTH).unwrap();
+        let rows = channels_of_columns(&columns, LENGTH, &at_base()).unwrap();
         let sigmas: Vec<f64> = rows[0].iter().map(|channel| channel.sigma).collect();
         assert_eq!(sigmas, [1e-3 * LENGTH, 1e-3, 2e-5]);
     }

@@ -7,6 +7,7 @@ mod options;
 mod points;
 mod record;
 mod result;
+mod sensor;
 mod summary;
 mod table;
 

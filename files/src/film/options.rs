@@ -1,6 +1,7 @@
 //! How a film is read.
 
 use std::path::PathBuf;
+use vibrissa::hw::Mounting;
 use vibrissa::reconstruct::{ForceSettings, Frame};
 
 /// Which ends of the rod the points show.
@@ -28,6 +29,8 @@ pub struct FilmOptions {
     pub ends: Ends,
     /// A second table, of measured numbers by frame.
     pub channels: Option<PathBuf>,
+    /// How the sensor sits whose components are among these numbers.
+    pub mounting: Mounting,
     /// A film of the free rod.
     pub rest: Option<PathBuf>,
     /// Friction, noise and number of contacts.

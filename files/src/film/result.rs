@@ -51,12 +51,15 @@ impl FilmForces {
         };
         let ignored = table.names().iter().filter(|name| !known(name)).cloned().collect();
         let frames = if is_channels {
-            let rows = channels(table, length)?;
+            let rows = channels(table, length, &options.mounting)?;
             rows.into_iter().map(|(of, channels)| (of, Frame { channels, ..Frame::default() })).collect()
         } else {
             let frames = points(table, options)?;
             match &options.channels {
-                Some(file) => with_channels(frames, channels(Numbers::read(file)?, length)?, options.ends),
+                Some(file) => {
+                    let rows = channels(Numbers::read(file)?, length, &options.mounting)?;
+                    with_channels(frames, rows, options.ends)
+                }
                 None => frames,
             }
         };
