@@ -268,12 +268,37 @@ pub struct Forces {
     /// Largest number of contacts
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=2), default_value_t = 2, allow_negative_numbers = true)]
     pub contacts: u8,
+    /// All frames that have a contact touch one round pole: found from them, or with its centre, in the unit of x and y
+    #[arg(long, value_name = "X,Y", num_args = 0..=1, default_missing_value = "anywhere", value_parser = pole, allow_negative_numbers = true)]
+    pub pole: Option<PoleCenter>,
+    /// Radius of the pole, in the unit of x and y; 0 for an edge [default: found]
+    #[arg(long, value_name = "RADIUS", requires = "pole", value_parser = not_negative, allow_negative_numbers = true)]
+    pub pole_radius: Option<f64>,
+    /// Standard deviation of each coordinate of the centre that is given, in the unit of x and y [default: that of the points]
+    #[arg(long, value_name = "SIGMA", requires = "pole", value_parser = positive, allow_negative_numbers = true)]
+    pub pole_sigma: Option<f64>,
     /// Largest apparent shortening of a rod of which both ends are seen, %: more is a rod bent out of the plane of the image
     #[arg(long, value_name = "PERCENT", value_parser = positive, default_value_t = 5.0, allow_negative_numbers = true)]
     pub shortening: f64,
     /// Directory of the results [default: out/<name of the frames>]
     #[arg(long, value_name = "DIR", value_parser = directory)]
     pub out: Option<PathBuf>,
+}
+
+/// Where a pole is, if that is known.
+#[derive(Clone, Copy, Debug)]
+pub struct PoleCenter(pub Option<[f64; 2]>);
+
+/// The centre of a pole.
+fn pole(text: &str) -> Result<PoleCenter, String> {
+    if text == "anywhere" {
+        return Ok(PoleCenter(None));
+    }
+    let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
+    match numbers[..] {
+        [x, y] if text.matches(',').count() == 1 && x.is_finite() && y.is_finite() => Ok(PoleCenter(Some([x, y]))),
+        _ => Err("expected X,Y: two numbers, or nothing where the pole is to be found".into()),
+    }
 }
 
 /// Which ends of a rod are seen.

@@ -7,7 +7,7 @@ use crate::{UNFINISHED, say, signals, warn};
 use rod_files::{Ends, FilmForces, FilmOptions, Setup, Staged, read_filmed_rod};
 use std::path::Path;
 use std::process::ExitCode;
-use vibrissa::reconstruct::ForceSettings;
+use vibrissa::reconstruct::{ForceSettings, PolePrior};
 use vibrissa_cli::write_film;
 
 /// Share of frames that chance alone may leave unexplained, with room: one in a thousand is expected.
@@ -27,12 +27,22 @@ pub fn forces(arguments: Forces) -> Result<ExitCode, Error> {
         sigma,
         friction,
         contacts,
+        pole,
+        pole_radius,
+        pole_sigma,
         shortening,
         out,
     } = arguments;
     signals::end();
     let filmed = read_filmed_rod(&rod, length)?;
-    let settings = ForceSettings { friction, sigma, most_contacts: contacts.into(), most_shortening: shortening / 1e2 };
+    let settings = ForceSettings {
+        friction,
+        sigma,
+        most_contacts: contacts.into(),
+        pole: None,
+        most_shortening: shortening / 1e2,
+    };
+    let pole = pole.map(|center| PolePrior { center: center.0, sigma: pole_sigma, radius: pole_radius });
     let ends = match visible {
         Visible::Base => Ends::Base,
         Visible::Tip => Ends::Tip,
@@ -42,7 +52,7 @@ pub fn forces(arguments: Forces) -> Result<ExitCode, Error> {
     let mounting = setup.as_deref().map_or_else(|| Ok(Setup::default()), Setup::read)?.mounting;
     let named = rest.clone().into_iter().chain(channels.clone()).chain(setup);
     let inputs = [frames.clone(), rod].into_iter().chain(named).collect();
-    let options = FilmOptions { scale, image, ends, channels, mounting, rest, settings };
+    let options = FilmOptions { scale, image, ends, channels, mounting, rest, pole, settings };
     stage(&format!("{}: finding the forces", frames.display()));
     let found = FilmForces::read(&frames, filmed, &options)?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&found.name));
@@ -56,6 +66,9 @@ pub fn forces(arguments: Forces) -> Result<ExitCode, Error> {
     }
     let (faults, unexplained) = found.failures();
     let by_chance = (BY_CHANCE * found.frames.len() as f64).max(1.0);
-    let is_fine = faults == 0 && unexplained as f64 <= by_chance && found.other_at_rest.is_none();
+    let is_fine = faults == 0
+        && unexplained as f64 <= by_chance
+        && found.other_at_rest.is_none()
+        && (!found.is_at_pole || found.film.pole.is_some());
     Ok(if is_fine { ExitCode::SUCCESS } else { ExitCode::from(UNFINISHED) })
 }

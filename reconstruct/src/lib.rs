@@ -75,8 +75,8 @@ pub use fit::{
 };
 #[cfg(feature = "std")]
 pub use frames::{
-    Axis, Channel, FamilyMember, Film, ForceSettings, Frame, FrameContact, FrameFault, FrameForces, FrameVerdict,
-    Measurand, RestError, RestShape, SeenPoint, forces, rest_shape,
+    Axis, Channel, FamilyMember, Film, FilmPole, ForceSettings, Frame, FrameContact, FrameFault, FrameForces,
+    FrameVerdict, Measurand, PolePrior, RestError, RestShape, SeenPoint, forces, rest_shape,
 };
 #[cfg(feature = "std")]
 pub use friction::{Friction, FrictionAlone, FrictionEstimate, Pair, without_friction};

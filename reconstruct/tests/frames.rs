@@ -6,18 +6,18 @@ use rod_core::{
 use rod_reconstruct::{Axis, Channel, ForceSettings, Frame, FrameVerdict, Measurand, forces, rest_shape};
 
 /// The laws of a rod: bending stiffness and curvature at rest by the arc length, SI.
-struct Law {
-    length: f64,
+pub struct Law {
+    pub length: f64,
     stiffness: Box<dyn Fn(f64) -> f64>,
     rest: Box<dyn Fn(f64) -> f64>,
 }
 
 /// A force at an arc length: size, and the angle by which friction turns it from the normal.
 #[derive(Clone, Copy, Debug)]
-struct Push {
-    s: f64,
-    force: f64,
-    turn: f64,
+pub struct Push {
+    pub s: f64,
+    pub force: f64,
+    pub turn: f64,
 }
 
 /// (x, y, phi, m) at the arc lengths `at`, from the base on, by Runge and Kutta's rule; `pushes` with their directions alpha.
@@ -53,7 +53,7 @@ fn integrate(law: &Law, base: [f64; 3], m0: f64, pushes: &[Push], alphas: &[f64]
 }
 
 /// The rod clamped at `base` under its pushes: moment at the base and directions by Newton's method with differences, the load growing.
-fn shoot(law: &Law, base: [f64; 3], pushes: &[Push], at: &[f64]) -> (Vec<[f64; 4]>, f64, Vec<f64>) {
+pub fn shoot(law: &Law, base: [f64; 3], pushes: &[Push], at: &[f64]) -> (Vec<[f64; 4]>, f64, Vec<f64>) {
     let places: Vec<f64> = pushes.iter().map(|push| push.s).collect();
     let last = *places.last().unwrap();
     let unloaded = integrate(law, base, 0.0, &[], &[], &places);
@@ -95,7 +95,7 @@ fn shoot(law: &Law, base: [f64; 3], pushes: &[Push], at: &[f64]) -> (Vec<[f64; 4
 }
 
 /// A uniform rod, a tapered one, and one that tapers and is bent at rest, with their laws.
-fn rods() -> Vec<(AnyRod, Law)> {
+pub fn rods() -> Vec<(AnyRod, Law)> {
     let (length, base, modulus) = (0.04, 1e-4, 3e9);
     let wire = StiffnessSpec::of_wire(base, modulus);
     let stiffness = move |tip: f64| {
@@ -117,7 +117,7 @@ fn rods() -> Vec<(AnyRod, Law)> {
     ]
 }
 
-fn arcs(length: f64, count: usize) -> Vec<f64> {
+pub fn arcs(length: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| length * k as f64 / (count - 1) as f64).collect()
 }
 
@@ -147,17 +147,17 @@ fn exact_points_give_exact_forces() {
 }
 
 /// Standard normal numbers by Box and Muller's transform of a xorshift generator.
-struct Normal(u64);
+pub struct Normal(pub u64);
 
 impl Normal {
-    fn uniform(&mut self) -> f64 {
+    pub fn uniform(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
         ((self.0 >> 11) as f64 + 0.5) / (1u64 << 53) as f64
     }
 
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         (-2.0 * self.uniform().ln()).sqrt() * (std::f64::consts::TAU * self.uniform()).cos()
     }
 }

@@ -4,6 +4,7 @@
 mod clean;
 mod common;
 mod frames;
+mod frames_at_a_pole;
 mod free_rod;
 mod friction;
 mod kink_filter;

@@ -5,6 +5,7 @@ mod channels;
 mod error;
 mod options;
 mod points;
+mod pole_record;
 mod record;
 mod result;
 mod sensor;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 use vibrissa::hw::Mounting;
-use vibrissa::reconstruct::{ForceSettings, Frame};
+use vibrissa::reconstruct::{ForceSettings, Frame, PolePrior};
 
 /// Which ends of the rod the points show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,8 +33,23 @@ pub struct FilmOptions {
     pub mounting: Mounting,
     /// A film of the free rod.
     pub rest: Option<PathBuf>,
+    /// A pole that the rod touches, in the coordinates of the table.
+    pub pole: Option<PolePrior>,
     /// Friction, noise and number of contacts.
     pub settings: ForceSettings,
+}
+
+impl FilmOptions {
+    /// The settings, with the pole in m.
+    pub(super) fn settings(&self) -> ForceSettings {
+        let turned = if self.image { -1.0 } else { 1.0 };
+        let in_metres = |pole: PolePrior| PolePrior {
+            center: pole.center.map(|[x, y]| [self.scale * x, turned * self.scale * y]),
+            sigma: pole.sigma.map(|sigma| self.scale * sigma),
+            radius: pole.radius.map(|radius| self.scale * radius),
+        };
+        ForceSettings { pole: self.pole.map(in_metres), ..self.settings }
+    }
 }
 
 impl Ends {

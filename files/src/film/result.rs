@@ -5,10 +5,12 @@ use super::channels::channels;
 use super::error::{AtRestError, FilmError};
 use super::options::{Ends, FilmOptions};
 use super::points::points;
+use super::pole_record::PoleRecord;
 use super::record::{COLUMNS, CONTACT_COLUMNS, FrameRecord, RestRecord};
 use super::table::Numbers;
 use crate::output::{json_line, pretty_json, write_csv};
 use crate::{FilmedRod, OutputError, Staged};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 use vibrissa::reconstruct::{Channel, Film, ForceSettings, Frame, FrameVerdict, RestShape, forces};
@@ -28,6 +30,8 @@ pub struct FilmForces {
     pub film: Film,
     /// The frame of the free rod that has another shape than the others, if there is one: by its number, from 0 where the frames have none.
     pub other_at_rest: Option<i64>,
+    /// Whether a pole was looked for.
+    pub is_at_pole: bool,
     /// Whether the noise of the points was given.
     pub is_noise_given: bool,
     /// Columns of the table that are not used.
@@ -68,7 +72,7 @@ impl FilmForces {
         let numbers: Vec<i64> = rest.iter().flatten().map(|(number, _)| *number).collect();
         let rest: Option<Vec<Frame>> = rest.map(|frames| frames.into_iter().map(|(_, frame)| frame).collect());
         let of_rest = || options.rest.clone().unwrap_or_else(|| file.to_path_buf());
-        let found = Self::of(name, frames, rest.as_deref(), rod, &options.settings)
+        let found = Self::of(name, frames, rest.as_deref(), rod, &options.settings())
             .map_err(|source| FilmError::Rest { file: of_rest(), source })?;
         let other_at_rest = found.other_at_rest.and_then(|index| numbers.get(index as usize).copied());
         Ok(Self { ignored, other_at_rest, ..found })
@@ -91,15 +95,15 @@ impl FilmForces {
         };
         let only: Vec<Frame> = frames.iter().map(|(_, frame)| frame.clone()).collect();
         let mut film = forces(&rod.rod, &only, settings);
-        let is_noise_given = settings.sigma.is_some();
+        let (is_noise_given, is_at_pole) = (settings.sigma.is_some(), settings.pole.is_some());
         let settings = ForceSettings { sigma: Some(film.sigma), ..*settings };
         let others: Vec<Film> = others.iter().map(|other| forces(other, &only, &settings)).collect();
         film.add_errors_of_the_rod(&others);
         let other_at_rest = rest.as_ref().and_then(|rest| rest.other).map(|other| other as i64);
-        Ok(Self { name, rod, rest, frames, film, other_at_rest, is_noise_given, ignored: Vec::new() })
+        Ok(Self { name, rod, rest, frames, film, other_at_rest, is_at_pole, is_noise_given, ignored: Vec::new() })
     }
 
-    /// Writes forces.jsonl, forces.csv, contacts.csv, and rest.json where a shape at rest was found.
+    /// Writes forces.jsonl, forces.csv, contacts.csv, and rest.json and pole.json where a shape at rest and a pole were found.
     ///
     /// # Errors
     /// [`OutputError`].
@@ -113,11 +117,8 @@ impl FilmForces {
         staged.write(Path::new("forces.csv"), |file| write_csv(file, &COLUMNS, rows))?;
         let rows = records.iter().flat_map(FrameRecord::contact_rows);
         staged.write(Path::new("contacts.csv"), |file| write_csv(file, &CONTACT_COLUMNS, rows))?;
-        let file = Path::new("rest.json");
-        match &self.rest {
-            Some(rest) => staged.write(file, |file| pretty_json(file, &RestRecord::of(rest))),
-            None => staged.remove(file),
-        }
+        write_or_remove(staged, "rest.json", self.rest.as_ref().map(RestRecord::of))?;
+        write_or_remove(staged, "pole.json", self.film.pole.as_ref().map(|pole| PoleRecord::of(pole, &self.frames)))
     }
 
     /// How many frames have a fault, and how many no shape explains.
@@ -125,6 +126,15 @@ impl FilmForces {
         let faults = self.film.frames.iter().filter(|told| told.is_err()).count();
         let told = self.film.frames.iter().flatten();
         (faults, told.filter(|told| told.verdict == FrameVerdict::NotExplained).count())
+    }
+}
+
+/// Writes a result, or removes an earlier one.
+fn write_or_remove<T: Serialize>(staged: &Staged, name: &str, result: Option<T>) -> Result<(), OutputError> {
+    let file = Path::new(name);
+    match result {
+        Some(result) => staged.write(file, |file| pretty_json(file, &result)),
+        None => staged.remove(file),
     }
 }
 

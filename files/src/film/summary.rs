@@ -52,6 +52,19 @@ impl FilmForces {
                 tip.1
             )?;
         }
+        if let Some(pole) = &self.film.pole {
+            let [x, y, radius] = pole.sigmas();
+            writeln!(
+                text,
+                "pole: x {:.6} +- {x:.1e} m, y {:.6} +- {y:.1e} m, radius {:.6}{} m; {} at it, {} elsewhere",
+                pole.center[0],
+                pole.center[1],
+                pole.radius,
+                if radius > 0.0 { format!(" +- {radius:.1e}") } else { String::new() },
+                counted(pole.frames.len(), "frame"),
+                pole.elsewhere.len()
+            )?;
+        }
         if !self.rod.is_stiffness_known {
             writeln!(text, "no stiffness is given: forces are in EI/L^2, moments in EI/L, with EI at the base")?;
         }
@@ -86,6 +99,13 @@ impl FilmForces {
                 "the frames of the free rod do not show one shape: frame {frame} of them differs most; is the rod free in all of them, and each in order \
                  from the base?"
             ));
+        }
+        if self.is_at_pole && self.film.pole.is_none() {
+            warnings.push(
+                "no pole explains the contacts of more than half of the frames: each frame is judged without it; is the object fixed, and are positions \
+                 those of one camera?"
+                    .into(),
+            );
         }
         warnings.extend(self.less_noise());
         warnings.extend(self.part_of_the_rod());

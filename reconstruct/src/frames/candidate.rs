@@ -22,6 +22,7 @@ const FLOORS: [f64; 5] = [0.1, 1e-2, 1e-3, 1e-4, 1e-5];
 const NEAR: f64 = 3.0;
 
 /// The shape with one set of contacts that explains a frame best.
+#[derive(Clone)]
 pub(super) struct Candidate {
     pub contacts: Vec<Place>,
     pub u: DVector<f64>,

@@ -33,7 +33,10 @@ pub(super) struct Allowed {
 
 impl Allowed {
     pub fn of(settings: &ForceSettings) -> Self {
-        Self { contacts: settings.most_contacts, friction: settings.friction.max(0.0) }
+        Self {
+            contacts: settings.most_contacts.min(if settings.pole.is_some() { 1 } else { 2 }),
+            friction: settings.friction.max(0.0),
+        }
     }
 
     /// How much the force along the rod is of that across it: unknown with friction.

@@ -1,6 +1,6 @@
 //! Forces on a rod from a film of it.
 
-use super::candidate::Candidate;
+use super::candidate::{Candidate, MOST_STEPS, solve};
 use super::check::check;
 use super::choose::{Allowed, Chosen, choose};
 use super::family::family;
@@ -9,6 +9,8 @@ use super::judge::verdict;
 use super::noise::found_noise;
 use super::observation::Frame;
 use super::observed::Observed;
+use super::pole::{FilmPole, PolePrior};
+use super::pole_search::{PoleSearch, Touch};
 use super::result::{Film, FrameContact, FrameForces, contacts};
 use super::settings::ForceSettings;
 use super::verdict::FrameVerdict;
@@ -16,6 +18,9 @@ use rod_core::{PhysicalRod, RodModel};
 
 /// By how much chi squared is less with the points in reverse order, at least.
 const CLEARLY: f64 = 30.0;
+/// Distance of the rim of a pole from the contact, in the noise of the points and in L at least: as good as none. Smaller: a narrower valley
+/// for the least squares.
+const EXACT: (f64, f64) = (1e-2, 1e-6);
 /// Standard deviations within which a shortening is noise.
 const SIGMAS: f64 = 4.0;
 
@@ -23,7 +28,7 @@ const SIGMAS: f64 = 4.0;
 ///
 /// Contacts are without friction, or with a force within the cone of [`ForceSettings::friction`]. With exact points place and force are exact to
 /// 1e-9 of the length and of E I / L^2 where the frame determines them. Frames do not depend on each other but for the noise of the points, if
-/// that is not known.
+/// that is not known, and the pole that they touch, if the settings have one.
 ///
 /// ```
 /// use rod_core::{Elastica, Load, Pose, Rod};
@@ -45,8 +50,41 @@ const SIGMAS: f64 = 4.0;
 /// ```
 pub fn forces<R: PhysicalRod>(rod: &R, frames: &[Frame], settings: &ForceSettings) -> Film {
     let sigma = settings.sigma.map_or_else(|| found_noise(rod, frames, settings), |sigma| sigma / rod.units().length);
-    let frames = frames.iter().map(|frame| of_frame(rod, frame, settings, sigma)).collect();
-    Film { frames, sigma: sigma * rod.units().length }
+    let pole = settings.pole.and_then(|prior| film_pole(rod, frames, settings, sigma, &prior));
+    let without = ForceSettings { pole: None, ..*settings };
+    let of = |(index, frame): (usize, &Frame)| match &pole {
+        Some(pole) if !pole.elsewhere.contains(&index) => of_frame(rod, frame, settings, sigma, Some(pole)),
+        _ => of_frame(rod, frame, &without, sigma, None),
+    };
+    Film { frames: frames.iter().enumerate().map(of).collect(), sigma: sigma * rod.units().length, pole }
+}
+
+/// The standard deviation of a pole, L, that is an observation of frames with the noise `sigma`.
+fn exact(sigma: f64) -> f64 {
+    (EXACT.0 * sigma).max(EXACT.1)
+}
+
+/// The pole that the frames touch.
+fn film_pole<R: PhysicalRod>(
+    rod: &R,
+    frames: &[Frame],
+    settings: &ForceSettings,
+    sigma: f64,
+    prior: &PolePrior,
+) -> Option<FilmPole> {
+    let (units, allowed) = (rod.units(), Allowed::of(settings));
+    let usable = frames.iter().enumerate().filter(|(_, frame)| check(units.length, frame, sigma).is_ok());
+    let touches: Vec<Touch> = usable
+        .filter_map(|(index, frame)| Touch::of(rod.model(), index, Observed::new(frame, rod, sigma), allowed))
+        .collect();
+    let search = PoleSearch {
+        model: rod.model(),
+        allowed,
+        prior: prior.in_lengths(units.length),
+        noise: sigma,
+        exact: exact(sigma),
+    };
+    search.pole(touches, &units)
 }
 
 fn of_frame<R: PhysicalRod>(
@@ -54,12 +92,13 @@ fn of_frame<R: PhysicalRod>(
     frame: &Frame,
     settings: &ForceSettings,
     sigma: f64,
+    pole: Option<&FilmPole>,
 ) -> Result<FrameForces, FrameFault> {
-    let units = rod.units();
+    let (units, allowed, exact) = (rod.units(), Allowed::of(settings), exact(sigma));
     check(units.length, frame, sigma)?;
-    let observed = Observed::new(frame, rod, sigma);
-    let Chosen { best, rivals, unseen } =
-        choose(rod.model(), &observed, Allowed::of(settings)).ok_or(FrameFault::NoShape)?;
+    let mut observed = Observed::new(frame, rod, sigma);
+    observed.pole = pole.map(|pole| pole.in_lengths(&units, exact));
+    let Chosen { best, rivals, unseen } = choose(rod.model(), &observed, allowed).ok_or(FrameFault::NoShape)?;
     if !best.explains() && is_explained_reversed(rod, frame, settings, sigma, best.chi_squared) {
         return Err(FrameFault::Reversed);
     }
@@ -69,11 +108,18 @@ fn of_frame<R: PhysicalRod>(
     {
         return Err(FrameFault::OutOfPlane { shortening: 1e2 * share, most: 1e2 * settings.most_shortening });
     }
-    let own = contacts(&best, &units);
+    let mut told =
+        FrameForces { shortening, ..FrameForces::of(&best, FrameVerdict::Told, contacts(&best, &units), &units) };
+    for moved in pole.map(FilmPole::moved).into_iter().flatten() {
+        observed.pole = Some(moved.in_lengths(&units, exact));
+        if let Some(other) = solve(rod.model(), &observed, &best.start(), allowed.friction, MOST_STEPS) {
+            told.add_difference(&FrameForces::of(&other, FrameVerdict::Told, contacts(&other, &units), &units));
+        }
+    }
     let of_rivals: Vec<Vec<FrameContact>> = rivals.iter().map(|rival| contacts(rival, &units)).collect();
     let is_placed = !rod.model().is_uniform() || observed.ends != [false; 2] || !observed.channels.is_empty();
-    let verdict = verdict(&best, is_placed, &own, of_rivals.iter().flatten(), units.length);
-    let mut told = FrameForces { shortening, ..FrameForces::of(&best, verdict, own, &units) };
+    let verdict = verdict(&best, is_placed, &told.contacts, of_rivals.iter().flatten(), units.length);
+    told.verdict = verdict;
     // what another explanation says differs from this one by an error of this one
     for (rival, contacts) in rivals.iter().zip(of_rivals) {
         let other = FrameForces::of(rival, verdict, contacts, &units);
@@ -84,7 +130,7 @@ fn of_frame<R: PhysicalRod>(
         told.add_unseen(&FrameForces::of(unseen, verdict, contacts(unseen, &units), &units));
     }
     if verdict == FrameVerdict::Family && told.contacts.len() < 2 {
-        told.family = family(rod.model(), &observed, &units, Allowed::of(settings));
+        told.family = family(rod.model(), &observed, &units, allowed);
     }
     Ok(told)
 }

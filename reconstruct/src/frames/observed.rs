@@ -1,9 +1,11 @@
 //! The observations of a frame, dimensionless.
 
 use super::observation::{Channel, Frame, Measurand, SeenPoint};
+use super::pole::Pole;
 use rod_core::{Clamp, PhysicalRod, Pose, Units};
 
 /// What the least squares see of a frame.
+#[derive(Clone)]
 pub(super) struct Observed {
     pub dots: Vec<Dot>,
     pub channels: Vec<Measured>,
@@ -11,6 +13,8 @@ pub(super) struct Observed {
     pub compliance: [[f64; 3]; 3],
     /// Whether the first dot is the base, and the last one the tip.
     pub ends: [bool; 2],
+    /// A pole that a single contact is at.
+    pub pole: Option<Pole>,
 }
 
 /// A point on the rod, lengths in L.
@@ -59,18 +63,21 @@ impl Observed {
             channels: frame.channels.iter().map(|channel| dimensionless(channel, &units)).collect(),
             compliance: held.law().map_or([[0.0; 3]; 3], |law| law.compliance),
             ends: [frame.base_is_first, frame.tip_is_last],
+            pole: None,
         }
     }
 
-    /// The same with no channel more exact than `floor`.
+    /// The same with no channel or pole more exact than `floor`.
     pub fn blurred(&self, floor: f64) -> Self {
         let blur = |channel: &Measured| Measured { sigma: channel.sigma.max(floor), ..*channel };
-        Self { dots: self.dots.clone(), channels: self.channels.iter().map(blur).collect(), ..*self }
+        let pole = self.pole.map(|pole| Pole { sigma: pole.sigma.max(floor), ..pole });
+        Self { dots: self.dots.clone(), channels: self.channels.iter().map(blur).collect(), pole, ..*self }
     }
 
-    /// The most exact channel.
+    /// The most exact channel, or the pole.
     pub fn most_exact(&self) -> f64 {
-        self.channels.iter().fold(f64::INFINITY, |least, channel| least.min(channel.sigma))
+        let pole = self.pole.map_or(f64::INFINITY, |pole| pole.sigma);
+        self.channels.iter().fold(pole, |least, channel| least.min(channel.sigma))
     }
 
     /// The value of a channel, where there is one for this quantity.

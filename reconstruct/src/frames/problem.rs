@@ -2,7 +2,8 @@
 
 use super::observation::Measurand;
 use super::observed::{Dot, Measured, Observed};
-use super::shape::{Node, Place, Shape, trace};
+use super::pole::{Centre, Pole};
+use super::shape::{Contact, Node, Place, Shape, trace};
 use crate::least_squares::{NormalMatrix, Problem};
 use nalgebra::DVector;
 use rod_core::RodModel;
@@ -87,6 +88,9 @@ impl<'a, M: RodModel> FrameProblem<'a, M> {
         for channel in &self.observed.channels {
             rows.at_base(channel, &shape, &self.observed.compliance);
         }
+        if let (Some(pole), [contact]) = (&self.observed.pole, &shape.contacts[..]) {
+            rows.at_pole(pole, contact);
+        }
         let Rows { normal, count, .. } = rows;
         normal.cost.is_finite().then_some(Left { normal, shape, count })
     }
@@ -160,6 +164,16 @@ impl Rows {
                 self.add(|k| base.by[k][axis.index()] + dot(row, &by_reactions(k)), at - value, sigma);
             }
             Measurand::Curvature(_) | Measurand::Marker(..) => {}
+        }
+    }
+}
+
+impl Rows {
+    /// The contact is on the rim of a pole.
+    fn at_pole(&mut self, pole: &Pole, contact: &Contact) {
+        let centre = Centre::of(contact, pole.radius, self.normal.gradient.len());
+        for axis in [0, 1] {
+            self.add(|k| centre.by(k)[axis], centre.at[axis] - pole.center[axis], pole.sigma);
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::candidate::Candidate;
 use super::fault::FrameFault;
+use super::pole::FilmPole;
 use super::problem::reactions;
 use super::shape::Contact;
 use super::verdict::{FamilyMember, FrameVerdict};
@@ -15,6 +16,8 @@ pub struct Film {
     pub frames: Vec<Result<FrameForces, FrameFault>>,
     /// Standard deviation of each coordinate of points whose own is not known (m): as given, or found.
     pub sigma: f64,
+    /// The pole that the rod touches, where the settings have one: none where no pole explains the frames.
+    pub pole: Option<FilmPole>,
 }
 
 /// A contact with its standard deviations, SI units.

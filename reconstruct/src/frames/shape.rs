@@ -68,6 +68,7 @@ pub(super) struct Contact {
 }
 
 /// A shape: its base, the force there, and its contacts from the outermost inwards.
+#[derive(Clone)]
 pub(super) struct Shape {
     pub base: Node,
     pub force: Force,

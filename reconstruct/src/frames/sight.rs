@@ -287,7 +287,8 @@ mod tests {
         let mut dots = vec![Dot { at: [0.0; 2], sigma: 1e-6, s: None }; 40];
         trace(&cone, &[side, side], &truth, &stations, |k, node| dots[k].at = [node.cut.x, node.cut.y]).unwrap();
         dots[0].s = Some(0.0);
-        let observed = Observed { dots, channels: Vec::new(), compliance: [[0.0; 3]; 3], ends: [true, true] };
+        let observed =
+            Observed { dots, channels: Vec::new(), compliance: [[0.0; 3]; 3], ends: [true, true], pole: None };
         let start = &Sight::of(&cone, &observed).two(side)[0];
         let close = [2e-3, 2e-3, 2e-3, 0.01, 0.02, 0.01, 0.2];
         for ((found, truth), close) in start.u.iter().zip(truth).zip(close) {
