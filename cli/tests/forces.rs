@@ -219,3 +219,42 @@ fn a_part_of_the_base_signal_tells_what_it_tells() {
         }
     }
 }
+
+/// Frames turned about their contact touch one edge there.
+#[test]
+fn a_pole_that_all_frames_touch_is_found() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let turned = |k: usize, way: f64| -> Vec<[f64; 2]> {
+        let (sin, cos) = (0.08 * k as f64).sin_cos();
+        points(30).iter().map(|[x, y]| [cos * x - sin * y + 0.02 + way, sin * x + cos * y - 0.01]).collect()
+    };
+    let mut frames: Vec<Vec<[f64; 2]>> = (0..8).map(|k| turned(k, 0.0)).collect();
+    frames.push(turned(3, 0.01));
+    fs::write(path.join("rod.toml"), ROD).unwrap();
+    let pixels = |frames: &[Vec<[f64; 2]>]| {
+        let image = |[x, y]: &[f64; 2]| [1e4 * x, -1e4 * y];
+        table(&frames.iter().map(|points| points.iter().map(image).collect()).collect::<Vec<_>>())
+    };
+    fs::write(path.join("frames.csv"), pixels(&frames)).unwrap();
+    let forces =
+        ["forces", "frames.csv", "--rod", "rod.toml", "--sigma", "1e-5", "--scale", "1e-4", "--image", "--pole"];
+    let output = vibrissa(path, &forces);
+    assert!(output.status.success(), "{}", complaint(&output));
+    let pole: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(path.join("out/frames/pole.json")).unwrap()).unwrap();
+    let number = |key: &str| pole[key].as_f64().unwrap();
+    assert!((number("x") - 0.02).abs() < 1e-6 && (number("y") + 0.01).abs() < 1e-6, "{pole}");
+    assert_eq!((pole["radius"].as_f64(), pole["elsewhere"].as_array().unwrap().len()), (Some(0.0), 1), "{pole}");
+    assert_eq!(pole["elsewhere"][0], 8);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("8 frames at it, 1 elsewhere"));
+    // a centre that is known, in pixels as the points, and one that is not there
+    let known = vibrissa(path, &[&forces[..], &["200,100", "--pole-radius", "0"]].concat());
+    assert!(known.status.success(), "{}", complaint(&known));
+    let wrong = vibrissa(path, &[&forces[..], &["300,100", "--pole-radius", "0", "--pole-sigma", "0.1"]].concat());
+    assert_eq!(wrong.status.code(), Some(2), "{}", complaint(&wrong));
+    assert!(complaint(&wrong).contains("no pole explains the contacts"), "{}", complaint(&wrong));
+    assert!(!path.join("out/frames/pole.json").exists());
+    let text = vibrissa(path, &[&forces[..], &["12"]].concat());
+    assert!(complaint(&text).contains("expected X,Y"), "{}", complaint(&text));
+}

@@ -8,7 +8,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rod_files::{FilmForces, FilmedRod, Setup, channels_of_columns};
 use std::path::PathBuf;
-use vibrissa::reconstruct::{FamilyMember, ForceSettings, Frame, FrameContact, FrameFault, FrameForces, SeenPoint};
+use vibrissa::reconstruct::{
+    FamilyMember, ForceSettings, Frame, FrameContact, FrameFault, FrameForces, PolePrior, SeenPoint,
+};
 
 /// A frame with its number.
 type FrameRow = (i64, Result<FrameForces, FrameFault>);
@@ -192,6 +194,26 @@ impl PyForces {
         Ok(Some(PyArray1::from_vec(py, all).reshape([41, 3])?.into_any()))
     }
 
+    /// The pole that the frames touch: ``center`` (x, y) and ``radius`` (m), their ``covariance`` (m^2; zeros for a radius that was given, or not
+    /// needed), ``chi2``, ``freedom``, ``p_value``, and the numbers of the ``frames`` that touch it and of those that touch something ``elsewhere``.
+    /// None where `pole` was not asked for, or no pole explains the frames.
+    #[getter]
+    fn pole<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(pole) = &self.found.film.pole else { return Ok(None) };
+        let numbers = |all: &[usize]| all.iter().map(|index| self.found.frames[*index].0).collect::<Vec<i64>>();
+        let told = PyDict::new(py);
+        told.set_item("center", pole.center)?;
+        told.set_item("radius", pole.radius)?;
+        let covariance = PyArray1::from_vec(py, pole.covariance.concat()).reshape([3, 3])?;
+        told.set_item("covariance", covariance)?;
+        told.set_item("chi2", pole.chi_squared)?;
+        told.set_item("freedom", pole.freedom)?;
+        told.set_item("p_value", pole.p_value)?;
+        told.set_item("frames", numbers(&pole.frames))?;
+        told.set_item("elsewhere", numbers(&pole.elsewhere))?;
+        Ok(Some(told))
+    }
+
     fn __len__(&self) -> usize {
         self.found.frames.len()
     }
@@ -244,9 +266,12 @@ impl FlatFrames {
     }
 }
 
+/// Centre, standard deviation and radius of a pole, as far as they are known.
+type PoleArgument = (Option<[f64; 2]>, Option<f64>, Option<f64>);
+
 /// Forces from frames in one piece; `vibrissa.forces` calls it.
 #[pyfunction]
-#[pyo3(signature = (rod, frames, rest, channels, setup, visible, sigma, friction, contacts, shortening))]
+#[pyo3(signature = (rod, frames, rest, channels, setup, visible, sigma, friction, contacts, pole, shortening))]
 #[allow(clippy::too_many_arguments, reason = "the keywords of the function in Python")]
 pub fn _forces(
     py: Python<'_>,
@@ -259,6 +284,7 @@ pub fn _forces(
     sigma: Option<f64>,
     friction: f64,
     contacts: usize,
+    pole: Option<PoleArgument>,
     shortening: f64,
 ) -> PyResult<PyForces> {
     let positive = |what: &str, value: f64, least: f64| {
@@ -271,6 +297,14 @@ pub fn _forces(
     sigma.map_or(Ok(()), |sigma| positive("sigma", sigma, f64::MIN_POSITIVE))?;
     positive("friction", friction, 0.0)?;
     positive("shortening", shortening, f64::MIN_POSITIVE)?;
+    let pole = pole.map(|(center, sigma, radius)| PolePrior { center, sigma, radius });
+    if let Some(PolePrior { center, sigma, radius }) = pole {
+        if center.is_some_and(|center| center.iter().any(|c| !c.is_finite())) {
+            return Err(errors::value("pole is not finite, expected True, or x and y in m"));
+        }
+        sigma.map_or(Ok(()), |sigma| positive("pole_sigma", sigma, f64::MIN_POSITIVE))?;
+        radius.map_or(Ok(()), |radius| positive("pole_radius", radius, 0.0))?;
+    }
     if contacts > 2 {
         return Err(errors::value(format!("contacts is {contacts}, expected 0, 1 or 2")));
     }
@@ -292,7 +326,7 @@ pub fn _forces(
     let rest = rest.map(|rest| rest.frames(visible)).transpose()?;
     let rest: Option<Vec<Frame>> = rest.map(|frames| frames.into_iter().map(|(_, frame)| frame).collect());
     let rod = FilmedRod { rod: rod.rod.clone(), is_stiffness_known: true };
-    let settings = ForceSettings { friction, sigma, most_contacts: contacts, most_shortening: shortening };
+    let settings = ForceSettings { friction, sigma, most_contacts: contacts, pole, most_shortening: shortening };
     let found = running::run(py, || FilmForces::of("frames".into(), all, rest.as_deref(), rod, &settings))?;
     Ok(PyForces { found: found.map_err(|error| errors::value(format!("rest: {error}")))? })
 }

@@ -160,3 +160,33 @@ def test_mistakes_are_sentences() -> None:
     found = vibrissa.forces(ROD, [points[0], points[0][:1], 1e3 * points[0]])
     assert list(found.frames["verdict"][1:]) == ["fault", "fault"]
     assert found.faults[1].startswith("1 points and 0 channels") and "are the points in mm?" in found.faults[2]
+
+
+def test_a_pole_tells_places_and_forces_that_moments_alone_do_not() -> None:
+    states, points = swept()
+    found = vibrissa.forces(ROD, points, sigma=1e-6, pole=True)
+    assert found.pole is not None and found.pole["elsewhere"] == []
+    # a rod that goes straight past it hardly tells its radius
+    sigmas = np.sqrt(np.diag(found.pole["covariance"]))
+    away = math.dist(found.pole["center"], (0.06, 0.03)) - abs(found.pole["radius"] - 0.004)
+    assert abs(away) < 5.0 * max(*sigmas, 1e-6), found.pole
+    x0, y0, phi0 = np.array([state.pose for state in states]).T
+    moments = {"base_x": x0, "base_y": y0, "base_phi": phi0, "m0z": np.array([state.reactions[2] for state in states])}
+    moments["sigma_m0z"] = np.full(len(states), 1e-9)
+    found = vibrissa.forces(ROD, channels=moments, pole=(0.06, 0.03), pole_radius=0.004, pole_sigma=1e-6)
+    assert found.pole is not None
+    told = found.frames[found.frames["verdict"] == "told"]
+    assert len(told) > len(states) // 2
+    truth = {k: state.contacts[0].force for k, state in enumerate(states)}
+    for row in told:
+        assert abs(row["force"] - truth[int(row["frame"])]) < 6.0 * row["sigma_force"]
+
+
+def test_poles_that_are_none_are_refused() -> None:
+    _, points = swept()
+    with pytest.raises(ValueError, match="pole_radius is -1"):
+        vibrissa.forces(ROD, points, pole=True, pole_radius=-1.0)
+    with pytest.raises(ValueError, match="without pole"):
+        vibrissa.forces(ROD, points, pole_radius=1.0)
+    with pytest.raises(ValueError, match="pole is not finite"):
+        vibrissa.forces(ROD, points, pole=(math.nan, 0.0))

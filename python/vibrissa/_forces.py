@@ -55,6 +55,9 @@ def forces(
     sigma: float | None = None,
     friction: float = 0.0,
     contacts: int = 2,
+    pole: bool | tuple[float, float] = False,
+    pole_radius: float | None = None,
+    pole_sigma: float | None = None,
     shortening: float = 0.05,
 ) -> Forces:
     """The forces on a rod, frame by frame, from points on it, from measured numbers at its base, or from both.
@@ -88,6 +91,13 @@ def forces(
         Largest coefficient of Coulomb friction at contacts on the side.
     contacts : int
         Largest number of contacts, 0 to 2.
+    pole : bool or (float, float)
+        True: all frames that have a contact touch one round pole, which is found from them. Or its centre x, y, m. Then no frame has more than one
+        contact, and frames tell each other where the pole is.
+    pole_radius : float, optional
+        Its radius, m; 0 for an edge. Found from the frames where it is None.
+    pole_sigma : float, optional
+        Standard deviation of each coordinate of a centre that is given, m; that of the points where it is None.
     shortening : float
         Largest apparent shortening of a rod of which both ends are seen, as a share of its length.
 
@@ -115,7 +125,10 @@ def forces(
             raise ValueError("neither frames nor channels are given, expected points on the rod, measured numbers at its base, or both")
         frames = [np.empty((0, 2))] * len(columns[0][1])
     free = None if rest is None else _flat(rest, "rest")
-    return _forces(rod, _flat(frames, "frames"), free, columns, setup, visible, sigma, friction, contacts, shortening)
+    if pole is False and (pole_radius is not None or pole_sigma is not None):
+        raise ValueError("pole_radius or pole_sigma is given without pole, expected pole=True, or its centre")
+    prior = None if pole is False else (None if pole is True else (float(pole[0]), float(pole[1])), pole_sigma, pole_radius)
+    return _forces(rod, _flat(frames, "frames"), free, columns, setup, visible, sigma, friction, contacts, prior, shortening)
 
 
 __all__: Sequence[str] = ["forces"]

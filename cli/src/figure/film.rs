@@ -7,7 +7,7 @@ use super::palette::{FAINT, FIRST, INK, MUTED, TRANSITION};
 use super::plane::PlaneWindow;
 use super::trace::{self, Along, LINE, TracePart};
 use rod_files::FilmForces;
-use vibrissa::reconstruct::{FrameContact, FrameForces};
+use vibrissa::reconstruct::{FilmPole, FrameContact, FrameForces};
 use vibrissa::rod::{Elastica, Load, RodError};
 
 /// Most frames that are drawn.
@@ -20,8 +20,9 @@ const HEAD: u32 = 144;
 const PLOT: u32 = 240;
 /// Length of the largest force that is drawn, pixels.
 const ARROW: f64 = 110.0;
-/// Radius of a point, pixels.
+/// Radius of a point, and half the width of the cross of a pole, pixels.
 const DOT: i32 = 2;
+const CROSS: f64 = 7.0;
 
 /// Which frames have no line and no force.
 const WITHOUT: &str = "without frames whose verdict is family, not explained or fault";
@@ -36,7 +37,9 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
     let told =
         || drawn().filter_map(|(_, told)| told.as_ref().ok()).filter(|told| told.verdict.has_contacts_of_its_own());
     let rods: Vec<Curve> = told().filter_map(|told| rod(found, told).ok()).collect();
-    let all = || dots().chain(rods.iter().flatten().copied());
+    let rim = |cross: f64| found.film.pole.as_ref().map(|pole| rim(pole, cross)).unwrap_or_default();
+    let extent = rim(0.0);
+    let all = || dots().chain(rods.iter().flatten().copied()).chain(extent.iter().flatten().copied());
     if all().next().is_none() {
         return svg((PAGE, HEAD), |root| write(root, &found.name, (24, 36), HPos::Left, TITLE, INK));
     }
@@ -53,13 +56,17 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
         } else {
             format!("arrows: forces on the rod, the longest {:.2} {name}", largest / unit)
         };
-        let notes = [format!("dots: points; lines: the rod; {arrows}"), format!("{WITHOUT}{shown}")];
+        let pole = if extent.is_empty() { "" } else { "; black: the pole" };
+        let notes = [format!("dots: points; lines: the rod; {arrows}{pole}"), format!("{WITHOUT}{shown}")];
         title(&head, &format!("{}: the rod and the forces on it", found.name), &notes)?;
         let chart = window.chart(&area, (12, 8))?;
         chart.draw_series(rods.iter().map(|rod| {
             Element::line(thin_line(rod.iter().copied(), (window.scale, window.scale)), FAINT.stroke_width(2))
         }))?;
         chart.draw_series(dots().map(|at| Element::circle(at, DOT, MUTED.filled())))?;
+        for line in rim(CROSS * window.scale) {
+            chart.draw_series([Element::line(line, INK.stroke_width(LINE / 2))])?;
+        }
         let length = window.scale * ARROW / largest;
         for contact in told().flat_map(|told| &told.contacts) {
             for line in arrow(contact, length, window.scale) {
@@ -97,6 +104,18 @@ fn rod(found: &FilmForces, told: &FrameForces) -> Result<Curve, RodError> {
     let rod = &found.rod.rod;
     let shape = Elastica::of_rod(rod.clone(), rod.units(), told.base, told.reactions.m0z, &loads)?;
     Ok(shape.sample(POINTS).map(|at| (1e3 * at.x, 1e3 * at.y)).collect())
+}
+
+/// The rim of a pole, and a cross of half this width at its centre, mm.
+fn rim(pole: &FilmPole, size: f64) -> Vec<Curve> {
+    let [x, y] = pole.center.map(|c| 1e3 * c);
+    let at = |k: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * k as f64 / POINTS as f64).sin_cos();
+        (x + 1e3 * pole.radius * cos, y + 1e3 * pole.radius * sin)
+    };
+    let cross = [vec![(x - size, y), (x + size, y)], vec![(x, y - size), (x, y + size)]];
+    let rim = (pole.radius > 0.0).then(|| (0..=POINTS).map(at).collect());
+    cross.into_iter().chain(rim).collect()
 }
 
 /// The lines of an arrow that ends in a contact.
