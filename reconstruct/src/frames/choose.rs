@@ -102,7 +102,9 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
     let singles = sorted(search.all(&ones, None));
     let is_free = |free: &Candidate| singles.first().is_none_or(|single| !single.is_worth(free));
     if let Some(free) = free.filter(is_free) {
-        return Some(Chosen { unseen: search.held_at(MIDDLE), ..Chosen::of(free) });
+        // no contact with the pole: a force that is not seen is another one
+        let anywhere = Observed { pole: None, ..observed.clone() };
+        return Some(Chosen { unseen: Search::of(model, &anywhere, allowed).held_at(MIDDLE), ..Chosen::of(free) });
     }
     let single = singles.first()?;
     if single.p_value() > SETTLES || allowed.contacts == 1 {
