@@ -234,7 +234,8 @@ pub struct Forces {
     /// arc length S in m kappa@S (1/m), x@S, y@S (m), phi@S (rad), each perhaps with sigma_...
     #[arg(value_name = "FRAMES")]
     pub frames: PathBuf,
-    /// The rod, a TOML file with the table [rod] of a scene, or a scene. Without bending_stiffness and youngs_modulus forces are in EI/L^2
+    /// The rod, a TOML file with the table [rod] of a scene, or a scene. Without bending_stiffness and youngs_modulus forces are in EI/L^2,
+    /// and columns of forces and moments are refused
     #[arg(long, value_name = "FILE")]
     pub rod: PathBuf,
     /// Frames of the same rod in which nothing touches it, as FRAMES: its curvature at rest is found from them, in place of that of the rod's file

@@ -258,3 +258,26 @@ fn a_pole_that_all_frames_touch_is_found() {
     let text = vibrissa(path, &[&forces[..], &["12"]].concat());
     assert!(complaint(&text).contains("expected X,Y"), "{}", complaint(&text));
 }
+
+/// Numbers in N and N m say nothing of a rod whose forces are in E I / L^2.
+#[test]
+fn loads_on_a_rod_without_stiffness_are_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    fs::write(path.join("rod.toml"), "[rod]\nlength = 0.1\ndiameter = 1e-3\n").unwrap();
+    fs::write(path.join("frames.csv"), table(&[points(40)])).unwrap();
+    let refused = |arguments: &[&str], said: &str| {
+        let output = vibrissa(path, &[&["forces"], arguments, &["--rod", "rod.toml"]].concat());
+        assert_eq!(output.status.code(), Some(1), "{}", complaint(&output));
+        let expected = " are in N and N m, but the rod has no stiffness; expected bending_stiffness, or diameter and youngs_modulus, in its table [rod]";
+        assert!(complaint(&output).contains(&format!("{said}{expected}")), "{}", complaint(&output));
+    };
+    fs::write(path.join("part.csv"), "x0,y0,phi0,f0x,m0z\n0,0,0,-0.1,0.01\n").unwrap();
+    refused(&["part.csv"], "part.csv:1: the columns f0x, m0z");
+    fs::write(path.join("felt.csv"), "frame,Fy,sigma_Fy,Tz\n0,0.1,0.01,0.01\n").unwrap();
+    refused(&["frames.csv", "--channels", "felt.csv"], "felt.csv:1: the columns Fy, Tz");
+    // a pose and a curvature need no stiffness
+    fs::write(path.join("bent.csv"), "frame,phi0,kappa@0.01\n0,0,1\n").unwrap();
+    let output = vibrissa(path, &["forces", "frames.csv", "--channels", "bent.csv", "--rod", "rod.toml"]);
+    assert_ne!(output.status.code(), Some(1), "{}", complaint(&output));
+}

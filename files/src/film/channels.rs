@@ -3,6 +3,7 @@
 use super::error::FilmError;
 use super::sensor;
 use super::table::{Numbers, is_deviation};
+use crate::FilmedRod;
 use vibrissa::hw::Mounting;
 use vibrissa::reconstruct::{Axis, Channel, Measurand};
 
@@ -26,6 +27,13 @@ enum Quantity {
     Sensor(usize),
 }
 
+impl Quantity {
+    /// Whether it is in N or N m.
+    fn is_load(self) -> bool {
+        matches!(self, Self::Of(Measurand::Reaction(_)) | Self::Sensor(_))
+    }
+}
+
 /// A column of measured numbers with its standard deviations, none where a cell has none.
 struct Column {
     quantity: Quantity,
@@ -35,9 +43,10 @@ struct Column {
 /// The measured numbers of each row, with the number of its frame: that of its column `frame`, or of the row, from 0.
 pub(super) fn channels(
     mut table: Numbers,
-    length: f64,
+    rod: &FilmedRod,
     mounting: &Mounting,
 ) -> Result<Vec<(i64, Vec<Channel>)>, FilmError> {
+    let length = rod.rod.length();
     let mut named: Vec<(usize, Quantity, Option<usize>)> = Vec::new();
     let mut faults = Vec::new();
     for (column, name) in table.names().iter().enumerate() {
@@ -57,6 +66,11 @@ pub(super) fn channels(
             found: table.names().join(", "),
             expected: EXPECTED,
         });
+    }
+    let loads = named.iter().filter(|(_, quantity, _)| quantity.is_load());
+    let loads: Vec<&str> = loads.map(|(column, ..)| table.names()[*column].as_str()).collect();
+    if !rod.is_stiffness_known && !loads.is_empty() {
+        return Err(FilmError::NoStiffness { columns: loads.join(", "), file: table.file });
     }
     let number = table.column("frame");
     let numbers: Vec<Option<i64>> =

@@ -36,6 +36,18 @@ pub enum FilmError {
         /// Each with its name and what was expected.
         faults: Vec<String>,
     },
+    /// Columns in N and N m, of a rod whose forces are known in E I / L^2 only.
+    #[error(
+        "{}:1: the columns {columns} are in N and N m, but the rod has no stiffness; expected bending_stiffness, or diameter and youngs_modulus, in its \
+         table [rod]",
+        file.display()
+    )]
+    NoStiffness {
+        /// Which file.
+        file: PathBuf,
+        /// Which columns.
+        columns: String,
+    },
     /// Rows that cannot be used, the first ones.
     #[error("{}: {}", file.display(), faults.join("\n"))]
     Rows {

@@ -44,7 +44,6 @@ impl FilmForces {
     /// # Errors
     /// [`FilmError`]: a table cannot be read, or the frames of the free rod give no shape.
     pub fn read(file: &Path, rod: FilmedRod, options: &FilmOptions) -> Result<Self, FilmError> {
-        let length = rod.rod.length();
         let table = Numbers::read(file)?;
         let is_points = ["frame", "x", "y"].iter().all(|name| table.column(name).is_some());
         let is_channels = !is_points && ["x", "y"].iter().all(|name| table.column(name).is_none());
@@ -55,13 +54,13 @@ impl FilmForces {
         };
         let ignored = table.names().iter().filter(|name| !known(name)).cloned().collect();
         let frames = if is_channels {
-            let rows = channels(table, length, &options.mounting)?;
+            let rows = channels(table, &rod, &options.mounting)?;
             rows.into_iter().map(|(of, channels)| (of, Frame { channels, ..Frame::default() })).collect()
         } else {
             let frames = points(table, options)?;
             match &options.channels {
                 Some(file) => {
-                    let rows = channels(Numbers::read(file)?, length, &options.mounting)?;
+                    let rows = channels(Numbers::read(file)?, &rod, &options.mounting)?;
                     with_channels(frames, rows, options.ends)
                 }
                 None => frames,

@@ -63,7 +63,8 @@ pub fn read_rod(file: &Path) -> Result<Rod, SceneError> {
 pub struct FilmedRod {
     /// The rod; of an unknown stiffness with that of 1 N m^2 at its base.
     pub rod: AnyRod,
-    /// Whether its stiffness is known. Otherwise forces are known in E I / L^2 only, and moments in E I / L, with E I at the base.
+    /// Whether its stiffness is known. Otherwise forces are known in E I / L^2 only, and moments in E I / L, with E I at the base;
+    /// columns of measured forces and moments are an error.
     pub is_stiffness_known: bool,
 }
 
