@@ -281,3 +281,29 @@ fn loads_on_a_rod_without_stiffness_are_refused() {
     let output = vibrissa(path, &["forces", "frames.csv", "--channels", "bent.csv", "--rod", "rod.toml"]);
     assert_ne!(output.status.code(), Some(1), "{}", complaint(&output));
 }
+
+/// A column that is mistyped, or that such a table has no use for, is told.
+#[test]
+fn columns_without_a_use_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    fs::write(path.join("rod.toml"), ROD).unwrap();
+    let said = |arguments: &[&str]| {
+        let output = vibrissa(path, &[&["forces"], arguments, &["--rod", "rod.toml"]].concat());
+        assert_ne!(output.status.code(), Some(1), "{}", complaint(&output));
+        complaint(&output)
+    };
+    fs::write(path.join("part.csv"), "T,frame,x0,y0,phi0,foz,m0z,sigma_m0z,sigma_f0x\n0,0,0,0,0,-0.1,0.01,1e-4,1\n")
+        .unwrap();
+    let heard = said(&["part.csv"]);
+    assert!(heard.contains("warning: part.csv: not used: column foz, sigma_f0x\n"), "{heard}");
+    let text = table(&[points(40)]);
+    fs::write(path.join("free.csv"), &text).unwrap();
+    let text = text.replace("frame,x,y", "Frame,x,y,z,sigma_x").replace('\n', ",,\n").replacen(",,\n", "\n", 1);
+    fs::write(path.join("frames.csv"), text).unwrap();
+    let heard = said(&["frames.csv", "--channels", "part.csv"]);
+    let expected = "warning: frames.csv: not used: column z, sigma_x, foz of part.csv, sigma_f0x of part.csv\n";
+    assert!(heard.contains(expected), "{heard}");
+    let heard = said(&["free.csv", "--rest", "frames.csv"]);
+    assert!(heard.contains("warning: free.csv: not used: column z of frames.csv, sigma_x of frames.csv\n"), "{heard}");
+}

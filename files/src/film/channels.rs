@@ -40,12 +40,16 @@ struct Column {
     cells: Vec<Option<(f64, Option<f64>)>>,
 }
 
-/// The measured numbers of each row, with the number of its frame: that of its column `frame`, or of the row, from 0.
-pub(super) fn channels(
-    mut table: Numbers,
-    rod: &FilmedRod,
-    mounting: &Mounting,
-) -> Result<Vec<(i64, Vec<Channel>)>, FilmError> {
+/// Measured numbers of a table.
+pub(super) struct Measured {
+    /// Those of each row, with the number of its frame: that of its column `frame`, or of the row, from 0.
+    pub rows: Vec<(i64, Vec<Channel>)>,
+    /// Columns that are not used.
+    pub ignored: Vec<String>,
+}
+
+/// The measured numbers of a table.
+pub(super) fn channels(mut table: Numbers, rod: &FilmedRod, mounting: &Mounting) -> Result<Measured, FilmError> {
     let length = rod.rod.length();
     let mut named: Vec<(usize, Quantity, Option<usize>)> = Vec::new();
     let mut faults = Vec::new();
@@ -73,6 +77,11 @@ pub(super) fn channels(
         return Err(FilmError::NoStiffness { columns: loads.join(", "), file: table.file });
     }
     let number = table.column("frame");
+    let is_used = |column: usize| {
+        let is_own = |(own, _, sigma): &(usize, Quantity, Option<usize>)| *own == column || *sigma == Some(column);
+        Some(column) == number || Some(column) == table.column("t") || named.iter().any(is_own)
+    };
+    let ignored = table.names_where(|column| !is_used(column));
     let numbers: Vec<Option<i64>> =
         (0..table.len()).map(|row| number.map_or(Some(row as i64), |column| table.whole(row, column))).collect();
     let columns: Vec<Column> = named
@@ -92,7 +101,8 @@ pub(super) fn channels(
     table.check()?;
     let rows = with_noise(&columns, numbers.len(), length, mounting)
         .map_err(|fault| FilmError::Columns { file: table.file, faults: vec![fault] })?;
-    Ok(numbers.into_iter().zip(rows).filter_map(|(number, row)| Some((number?, row))).collect())
+    let rows = numbers.into_iter().zip(rows).filter_map(|(number, row)| Some((number?, row))).collect();
+    Ok(Measured { rows, ignored })
 }
 
 /// What is expected of a standard deviation.

@@ -7,6 +7,12 @@ use vibrissa::reconstruct::{Frame, SeenPoint};
 
 const EXPECTED: &str = "frame, x, y, and perhaps sigma: one row a point, in order from the base to the tip";
 
+/// Columns of a table of points that say nothing that is used; a time is not told as one.
+pub(super) fn ignored(table: &Numbers) -> Vec<String> {
+    let used = ["frame", "x", "y", "sigma", "t"].map(|name| table.column(name));
+    table.names_where(|column| !used.contains(&Some(column)))
+}
+
 /// Frames with their numbers, in order.
 pub(super) fn points(mut table: Numbers, options: &FilmOptions) -> Result<Vec<(i64, Frame)>, FilmError> {
     let [number, x, y] = ["frame", "x", "y"].map(|name| table.needed(name, EXPECTED));

@@ -4,7 +4,7 @@ use super::at_rest::at_rest;
 use super::channels::channels;
 use super::error::{AtRestError, FilmError};
 use super::options::{Ends, FilmOptions};
-use super::points::points;
+use super::points::{self, points};
 use super::pole_record::PoleRecord;
 use super::record::{COLUMNS, CONTACT_COLUMNS, FrameRecord, RestRecord};
 use super::table::Numbers;
@@ -34,7 +34,7 @@ pub struct FilmForces {
     pub is_at_pole: bool,
     /// Whether the noise of the points was given.
     pub is_noise_given: bool,
-    /// Columns of the table that are not used.
+    /// Columns that are not used; of another table than that of the frames with its file.
     pub ignored: Vec<String>,
 }
 
@@ -47,27 +47,32 @@ impl FilmForces {
         let table = Numbers::read(file)?;
         let is_points = ["frame", "x", "y"].iter().all(|name| table.column(name).is_some());
         let is_channels = !is_points && ["x", "y"].iter().all(|name| table.column(name).is_none());
-        let known = |name: &String| {
-            let name = name.as_str();
-            let name = name.strip_prefix("sigma_").unwrap_or(name);
-            matches!(name, "frame" | "x" | "y" | "sigma" | "t") || is_channels
-        };
-        let ignored = table.names().iter().filter(|name| !known(name)).cloned().collect();
+        let mut ignored = Vec::new();
         let frames = if is_channels {
-            let rows = channels(table, &rod, &options.mounting)?;
-            rows.into_iter().map(|(of, channels)| (of, Frame { channels, ..Frame::default() })).collect()
+            let measured = channels(table, &rod, &options.mounting)?;
+            ignored.extend(measured.ignored);
+            measured.rows.into_iter().map(|(of, channels)| (of, Frame { channels, ..Frame::default() })).collect()
         } else {
+            ignored.extend(points::ignored(&table));
             let frames = points(table, options)?;
             match &options.channels {
                 Some(file) => {
-                    let rows = channels(Numbers::read(file)?, &rod, &options.mounting)?;
-                    with_channels(frames, rows, options.ends)
+                    let measured = channels(Numbers::read(file)?, &rod, &options.mounting)?;
+                    ignored.extend(of_file(measured.ignored, file));
+                    with_channels(frames, measured.rows, options.ends)
                 }
                 None => frames,
             }
         };
         let name = file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
-        let rest = options.rest.as_ref().map(|file| points(Numbers::read(file)?, options)).transpose()?;
+        let rest = match &options.rest {
+            Some(file) => {
+                let table = Numbers::read(file)?;
+                ignored.extend(of_file(points::ignored(&table), file));
+                Some(points(table, options)?)
+            }
+            None => None,
+        };
         let numbers: Vec<i64> = rest.iter().flatten().map(|(number, _)| *number).collect();
         let rest: Option<Vec<Frame>> = rest.map(|frames| frames.into_iter().map(|(_, frame)| frame).collect());
         let of_rest = || options.rest.clone().unwrap_or_else(|| file.to_path_buf());
@@ -135,6 +140,11 @@ fn write_or_remove<T: Serialize>(staged: &Staged, name: &str, result: Option<T>)
         Some(result) => staged.write(file, |file| pretty_json(file, &result)),
         None => staged.remove(file),
     }
+}
+
+/// Columns of another table than that of the frames.
+fn of_file(columns: Vec<String>, file: &Path) -> impl Iterator<Item = String> {
+    columns.into_iter().map(move |column| format!("{column} of {}", file.display()))
 }
 
 /// Frames of points with the measured numbers of the same frame.

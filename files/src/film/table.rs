@@ -65,6 +65,12 @@ impl Numbers {
         &self.names
     }
 
+    /// The names of some of the columns.
+    pub fn names_where(&self, is_meant: impl Fn(usize) -> bool) -> Vec<String> {
+        let columns = self.names.iter().enumerate();
+        columns.filter(|(column, _)| is_meant(*column)).map(|(_, name)| name.clone()).collect()
+    }
+
     pub fn len(&self) -> usize {
         self.rows.len()
     }
