@@ -248,7 +248,7 @@ pub struct Forces {
     #[arg(long, value_name = "FILE")]
     pub channels: Option<PathBuf>,
     /// How the sensor sits whose components Fx,Fy,Fz (N), Tx,Ty,Tz (N m) are columns of measured numbers: the table [mounting] of a TOML file, as for
-    /// `live` [default: in the axes of the frames, at the base]
+    /// `live` [default: in the axes of the frames, at the base]. Without any of these columns it is refused
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,
     /// Metres per unit of x and y, as the size of a pixel

@@ -74,7 +74,7 @@ impl Error {
     /// Whether the value of an option is wrong, as opposed to a file or a device.
     pub fn is_of_options(&self) -> bool {
         match self {
-            Self::Contour(_) | Self::Option(_) => true,
+            Self::Contour(_) | Self::Option(_) | Self::Film(FilmError::NoSensor { .. }) => true,
             Self::Simulate(error)
             | Self::FakeSensor(FakeError::Simulation(error))
             | Self::Budget(BudgetError::Simulation(error))

@@ -307,3 +307,33 @@ fn columns_without_a_use_are_told() {
     let heard = said(&["free.csv", "--rest", "frames.csv"]);
     assert!(heard.contains("warning: free.csv: not used: column z of frames.csv, sigma_x of frames.csv\n"), "{heard}");
 }
+
+/// How a sensor sits says nothing of numbers that are not its own.
+#[test]
+fn a_setup_without_numbers_of_a_sensor_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    fs::write(path.join("rod.toml"), ROD).unwrap();
+    fs::write(path.join("setup.toml"), "[mounting]\nlever = [0.003, 0.012, 0.0]\n").unwrap();
+    fs::write(path.join("frames.csv"), table(&[points(40)])).unwrap();
+    fs::write(path.join("part.csv"), "frame,m0z\n0,-0.1\n").unwrap();
+    fs::write(path.join("felt.csv"), "frame,Tz\n0,-0.1\n").unwrap();
+    let told = |arguments: &[&str]| {
+        let output =
+            vibrissa(path, &[&["forces"], arguments, &["--rod", "rod.toml", "--setup", "setup.toml"]].concat());
+        (output.status.code(), complaint(&output))
+    };
+    for (arguments, file) in [
+        (&["frames.csv"][..], "frames.csv"),
+        (&["part.csv"], "part.csv"),
+        (&["frames.csv", "--channels", "part.csv"], "part.csv"),
+    ] {
+        let (status, said) = told(arguments);
+        let expected = format!(
+            "{file}:1: no column of Fx, Fy, Fz, Tx, Ty, Tz, so that the mounting of the sensor (--setup) has no effect"
+        );
+        assert!(status == Some(2) && said.contains(&expected), "{arguments:?}: {said}");
+    }
+    let (_, said) = told(&["frames.csv", "--channels", "felt.csv"]);
+    assert!(!said.contains("--setup"), "{said}");
+}

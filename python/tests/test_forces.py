@@ -80,6 +80,9 @@ def test_a_sensor_is_mounted(tmp_path: Path) -> None:
     assert np.allclose(found.frames["s"], [state.contacts[0].s for state in states], atol=1e-6)
     with pytest.raises(FileNotFoundError):
         vibrissa.forces(ROD, channels=columns, setup=tmp_path / "none.toml")
+    for channels, given in [(None, "none"), ({"m0z": [0.01], "phi0": [0.0]}, "m0z, phi0")]:
+        with pytest.raises(ValueError, match=f"setup has no effect: the channels are {given}, expected any of Fx, Fy, Fz, Tx, Ty, Tz"):
+            vibrissa.forces(ROD, [np.column_stack([np.linspace(0.0, 0.1, 40), np.zeros(40)])], channels=channels, setup=setup)
 
 
 def test_frames_of_all_kinds_are_the_same() -> None:

@@ -14,6 +14,8 @@ from ._core import Forces, Rod, _forces
 from .tracking import Frames
 
 _Points = npt.ArrayLike
+# What a force/torque sensor measures, by the names of channels.
+_OF_SENSOR = ("Fx", "Fy", "Fz", "Tx", "Ty", "Tz")
 FramesLike = Frames | Mapping[int, _Points] | Iterable[_Points]
 
 
@@ -81,7 +83,7 @@ def forces(
         Also ``Fx``, ``Fy``, ``Fz`` (N), ``Tx``, ``Ty``, ``Tz`` (N m) of a force/torque sensor. NaN where one was not measured.
     setup : str or os.PathLike, optional
         How that sensor sits: the table ``[mounting]`` of a setup file. Without it, in the axes of x and y and at the base; it measures the load of
-        the rod on it.
+        the rod on it. Without any of its numbers it is an error.
     visible : str
         Which ends of the rod the points show: ``"base"`` (the first point), ``"tip"`` (the last), ``"both"`` or ``"neither"``.
     sigma : float, optional
@@ -109,7 +111,7 @@ def forces(
     Raises
     ------
     ValueError
-        Frames or channels are none, or the frames of the free rod give no shape.
+        Frames or channels are none, `setup` is given without numbers of a sensor, or the frames of the free rod give no shape.
 
     Examples
     --------
@@ -124,6 +126,9 @@ def forces(
         if not columns:
             raise ValueError("neither frames nor channels are given, expected points on the rod, measured numbers at its base, or both")
         frames = [np.empty((0, 2))] * len(columns[0][1])
+    if setup is not None and not any(name in _OF_SENSOR for name, _ in columns or ()):
+        given = ", ".join(channels) if channels else "none"
+        raise ValueError(f"setup has no effect: the channels are {given}, expected any of {', '.join(_OF_SENSOR)} beside it")
     free = None if rest is None else _flat(rest, "rest")
     if pole is False and (pole_radius is not None or pole_sigma is not None):
         raise ValueError("pole_radius or pole_sigma is given without pole, expected pole=True, or its centre")

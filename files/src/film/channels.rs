@@ -46,6 +46,8 @@ pub(super) struct Measured {
     pub rows: Vec<(i64, Vec<Channel>)>,
     /// Columns that are not used.
     pub ignored: Vec<String>,
+    /// Whether components of a sensor are among them.
+    pub has_sensor: bool,
 }
 
 /// The measured numbers of a table.
@@ -81,6 +83,7 @@ pub(super) fn channels(mut table: Numbers, rod: &FilmedRod, mounting: &Mounting)
         let is_own = |(own, _, sigma): &(usize, Quantity, Option<usize>)| *own == column || *sigma == Some(column);
         Some(column) == number || Some(column) == table.column("t") || named.iter().any(is_own)
     };
+    let has_sensor = named.iter().any(|(_, quantity, _)| matches!(quantity, Quantity::Sensor(_)));
     let ignored = table.names_where(|column| !is_used(column));
     let numbers: Vec<Option<i64>> =
         (0..table.len()).map(|row| number.map_or(Some(row as i64), |column| table.whole(row, column))).collect();
@@ -102,7 +105,7 @@ pub(super) fn channels(mut table: Numbers, rod: &FilmedRod, mounting: &Mounting)
     let rows = with_noise(&columns, numbers.len(), length, mounting)
         .map_err(|fault| FilmError::Columns { file: table.file, faults: vec![fault] })?;
     let rows = numbers.into_iter().zip(rows).filter_map(|(number, row)| Some((number?, row))).collect();
-    Ok(Measured { rows, ignored })
+    Ok(Measured { rows, ignored, has_sensor })
 }
 
 /// What is expected of a standard deviation.

@@ -48,6 +48,12 @@ pub enum FilmError {
         /// Which columns.
         columns: String,
     },
+    /// A sensor is said to be turned or at a lever, but no table has its numbers.
+    #[error("{}:1: no column of Fx, Fy, Fz, Tx, Ty, Tz, so that the mounting of the sensor (--setup) has no effect; expected one, or no mounting", file.display())]
+    NoSensor {
+        /// Which file should have them.
+        file: PathBuf,
+    },
     /// Rows that cannot be used, the first ones.
     #[error("{}: {}", file.display(), faults.join("\n"))]
     Rows {

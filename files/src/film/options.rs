@@ -29,7 +29,7 @@ pub struct FilmOptions {
     pub ends: Ends,
     /// A second table, of measured numbers by frame.
     pub channels: Option<PathBuf>,
-    /// How the sensor sits whose components are among these numbers.
+    /// How the sensor sits whose components are among these numbers; without them an error, unless it has the axes of the frames and sits at the base.
     pub mounting: Mounting,
     /// A film of the free rod.
     pub rest: Option<PathBuf>,

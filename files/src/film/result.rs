@@ -13,6 +13,7 @@ use crate::{FilmedRod, OutputError, Staged};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
+use vibrissa::hw::{Frame as Axes, Mounting};
 use vibrissa::reconstruct::{Channel, Film, ForceSettings, Frame, FrameVerdict, RestShape, forces};
 
 /// Forces on a rod from a film.
@@ -48,8 +49,10 @@ impl FilmForces {
         let is_points = ["frame", "x", "y"].iter().all(|name| table.column(name).is_some());
         let is_channels = !is_points && ["x", "y"].iter().all(|name| table.column(name).is_none());
         let mut ignored = Vec::new();
+        let mut has_sensor = false;
         let frames = if is_channels {
             let measured = channels(table, &rod, &options.mounting)?;
+            has_sensor = measured.has_sensor;
             ignored.extend(measured.ignored);
             measured.rows.into_iter().map(|(of, channels)| (of, Frame { channels, ..Frame::default() })).collect()
         } else {
@@ -58,12 +61,17 @@ impl FilmForces {
             match &options.channels {
                 Some(file) => {
                     let measured = channels(Numbers::read(file)?, &rod, &options.mounting)?;
+                    has_sensor = measured.has_sensor;
                     ignored.extend(of_file(measured.ignored, file));
                     with_channels(frames, measured.rows, options.ends)
                 }
                 None => frames,
             }
         };
+        if !has_sensor && options.mounting != Mounting::new(Axes::same()) {
+            let file = if is_channels { None } else { options.channels.as_deref() }.unwrap_or(file);
+            return Err(FilmError::NoSensor { file: file.to_path_buf() });
+        }
         let name = file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
         let rest = match &options.rest {
             Some(file) => {
