@@ -6,7 +6,7 @@ Needs the package vibrissa (pip install ./python), numpy and scipy. Prints table
 each time but for the times per frame. Lengths in m, forces in N.
 
 Frames
-    `vibrissa.sweep` pushes a rat's whisker C1 (docs/whiskers.md), straight or bent at rest, against a peg of 0.5 mm radius that it first touches
+    `vibrissa.sweep` pushes the rat's whisker of docs/whiskers.md, straight or bent at rest, against a peg of 0.5 mm radius that it first touches
     at 30, 50, 70 or 85 % of its length. Of each sweep four states: at 1, 10, 50 and 90 % of the way on which the peg is touched. A frame is 40
     points on the rod, the same arc length apart, with Gaussian noise of 0, 0.0002 L or 0.001 L in x and y; 20 repeats. Sweep and (a) have the
     same model of a rod: without noise (a) shows that it inverts the model, and (b) and (c) show what they leave out.
@@ -49,11 +49,12 @@ import numpy.typing as npt
 from scipy.optimize import minimize
 
 import vibrissa
-from vibrissa import whiskers
+from vibrissa.whiskers import Whisker
 
 Array = npt.NDArray[np.float64]
 
-WHISKER = whiskers.rat("C", 1)
+# That of scenes/whisker.toml; the tip of the regression with one more digit.
+WHISKER = Whisker(40.8e-3, 151.7e-6, 8.5736e-6, 3.34e9, "docs/whiskers.md")
 LENGTH = WHISKER.length
 PEG = 0.5e-3
 PLACES = [0.3, 0.5, 0.7, 0.85]

@@ -12,8 +12,8 @@
 #
 # ## A film
 #
-# The whisker is C1 of a rat, by regressions from the literature. It is bent at rest. It turns about its follicle, 5 mm behind its base, past a
-# peg with a radius of 1 mm.
+# The whisker is a rat's, with the numbers of docs/whiskers.md; `rat` and `mouse` of `vibrissa.whiskers` have others. It is bent at rest. It turns
+# about its follicle, 5 mm behind its base, past a peg with a radius of 1 mm.
 
 # %%
 import csv
@@ -29,9 +29,9 @@ from matplotlib.patches import Circle
 
 import vibrissa
 from vibrissa.tracking import Frames, read_deeplabcut
-from vibrissa.whiskers import rat
+from vibrissa.whiskers import Whisker
 
-whisker = rat("C", 1)
+whisker = Whisker(length=40.8e-3, base_diameter=151.7e-6, tip_diameter=8.6e-6, youngs_modulus=3.34e9)  # m, m, m, Pa
 L = whisker.length  # m
 rod = whisker.rod(natural_curvature=[[0.0, 8.0], [L, 24.0]])  # m, 1/m
 PEG, RADIUS = np.array([0.006, 0.026]), 1e-3  # m
@@ -105,9 +105,9 @@ print(f"{len(film)} of {len(states)} frames show the base;", *[f"{counts[n]} wit
 # %% [markdown]
 # ## Forces
 #
-# The stiffness comes from the regressions. The shape at rest comes from the film: `rest` takes frames in which nothing touches the whisker. In
-# your film you pick them by eye. Take them well before the contact, because a light touch in one of them bends the shape at rest. Here they
-# are the frames up to the fourth before the contact. So the rod in this call is straight, and its curvature is found.
+# The stiffness comes from the diameters and Young's modulus. The shape at rest comes from the film: `rest` takes frames in which nothing touches
+# the whisker. In your film you pick them by eye. Take them well before the contact, because a light touch in one of them bends the shape at
+# rest. Here they are the frames up to the fourth before the contact. So the rod in this call is straight, and its curvature is found.
 
 # %%
 free = {k: points for k, points in film.items() if k < first_contact - 3}

@@ -20,7 +20,7 @@ From reactions to the object
     noise, :class:`Live` answers while samples come.
 Forces from shapes
     :func:`forces` gives :class:`Forces` from points on the rod, frame by frame; :mod:`vibrissa.tracking` reads WHISK, WhiskiWrap, DeepLabCut, SLEAP and
-    CSV, :mod:`vibrissa.whiskers` has whiskers of rats as rods.
+    CSV, :mod:`vibrissa.whiskers` has whiskers of rats and mice as rods.
 
 ``UNITS`` has the units of the fields of all arrays.
 """
