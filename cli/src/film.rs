@@ -3,8 +3,8 @@
 use crate::arguments::{Forces, Visible};
 use crate::error::Error;
 use crate::progress::stage;
-use crate::{UNFINISHED, say, signals, warn};
-use rod_files::{Ends, FilmForces, FilmOptions, Setup, Staged, read_filmed_rod};
+use crate::{UNFINISHED, read_setup, say, signals, warn};
+use rod_files::{Ends, FilmForces, FilmOptions, Staged, read_filmed_rod};
 use std::path::Path;
 use std::process::ExitCode;
 use vibrissa::reconstruct::{ForceSettings, PolePrior};
@@ -49,7 +49,7 @@ pub fn forces(arguments: Forces) -> Result<ExitCode, Error> {
         Visible::Both => Ends::Both,
         Visible::Neither => Ends::Neither,
     };
-    let mounting = setup.as_deref().map_or_else(|| Ok(Setup::default()), Setup::read)?.mounting;
+    let mounting = setup.as_deref().map(read_setup).transpose()?.map(|setup| setup.mounting);
     let named = rest.clone().into_iter().chain(channels.clone()).chain(setup);
     let inputs = [frames.clone(), rod].into_iter().chain(named).collect();
     let options = FilmOptions { scale, image, ends, channels, mounting, rest, pole, settings };

@@ -29,8 +29,8 @@ pub struct FilmOptions {
     pub ends: Ends,
     /// A second table, of measured numbers by frame.
     pub channels: Option<PathBuf>,
-    /// How the sensor sits whose components are among these numbers; without them an error, unless it has the axes of the frames and sits at the base.
-    pub mounting: Mounting,
+    /// How the sensor sits whose components are among these numbers: an error without them. In the axes of the frames and at the base where it is not said.
+    pub mounting: Option<Mounting>,
     /// A film of the free rod.
     pub rest: Option<PathBuf>,
     /// A pole that the rod touches, in the coordinates of the table.

@@ -45,13 +45,14 @@ impl FilmForces {
     /// # Errors
     /// [`FilmError`]: a table cannot be read, or the frames of the free rod give no shape.
     pub fn read(file: &Path, rod: FilmedRod, options: &FilmOptions) -> Result<Self, FilmError> {
+        let mounting = options.mounting.unwrap_or_else(|| Mounting::new(Axes::same()));
         let table = Numbers::read(file)?;
         let is_points = ["frame", "x", "y"].iter().all(|name| table.column(name).is_some());
         let is_channels = !is_points && ["x", "y"].iter().all(|name| table.column(name).is_none());
         let mut ignored = Vec::new();
         let mut has_sensor = false;
         let frames = if is_channels {
-            let measured = channels(table, &rod, &options.mounting)?;
+            let measured = channels(table, &rod, &mounting)?;
             has_sensor = measured.has_sensor;
             ignored.extend(measured.ignored);
             measured.rows.into_iter().map(|(of, channels)| (of, Frame { channels, ..Frame::default() })).collect()
@@ -60,7 +61,7 @@ impl FilmForces {
             let frames = points(table, options)?;
             match &options.channels {
                 Some(file) => {
-                    let measured = channels(Numbers::read(file)?, &rod, &options.mounting)?;
+                    let measured = channels(Numbers::read(file)?, &rod, &mounting)?;
                     has_sensor = measured.has_sensor;
                     ignored.extend(of_file(measured.ignored, file));
                     with_channels(frames, measured.rows, options.ends)
@@ -68,7 +69,7 @@ impl FilmForces {
                 None => frames,
             }
         };
-        if !has_sensor && options.mounting != Mounting::new(Axes::same()) {
+        if !has_sensor && options.mounting.is_some() {
             let file = if is_channels { None } else { options.channels.as_deref() }.unwrap_or(file);
             return Err(FilmError::NoSensor { file: file.to_path_buf() });
         }
