@@ -65,7 +65,7 @@ pub fn forces(arguments: Forces) -> Result<ExitCode, Error> {
         warn(&format!("warning: {}: {warning}\n", frames.display()));
     }
     let (faults, unexplained) = found.failures();
-    let by_chance = (BY_CHANCE * found.frames.len() as f64).max(1.0);
+    let by_chance = BY_CHANCE * found.frames.len() as f64;
     let is_fine = faults == 0
         && unexplained as f64 <= by_chance
         && found.other_at_rest.is_none()

@@ -15,12 +15,13 @@ pub(super) const BEYOND_CHANCE: f64 = 3.0902;
 const CHANCE: f64 = 1e-3;
 /// Where on a free rod a force is looked for that is not seen, L.
 const MIDDLE: f64 = 0.5;
-/// Probability from which on a solution is taken without a look for a better one: there may be another minimum.
+/// Probability that chance leaves as much, from which on a solution is taken without a look for a better one: there may be another minimum.
 const SETTLES: f64 = 0.1;
 /// How many times the chi squared of what explains a frame another explanation may have after a few steps.
 const NEAR: f64 = 5.0;
-/// How many starts are tried where the first ones do not explain the frame.
-const MOST_STARTS: usize = 5;
+/// How many starts are tried, and how many where none of them explains the frame so well that chance often leaves as much.
+const FEW_STARTS: usize = 5;
+const MOST_STARTS: usize = 15;
 
 /// What may touch the rod.
 #[derive(Clone, Copy)]
@@ -96,9 +97,10 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
         return settle(search.solve(&free, MOST_STEPS).into_iter().collect());
     }
     let ones = [allowed.side(), Place::Tip].map(|place| search.starts.one(model, place)).concat();
-    let (free, ones): (Vec<Start>, Vec<Start>) =
-        search.starts.plausible([ones, vec![free]].concat()).into_iter().partition(|start| start.contacts.is_empty());
-    let free = free.first().and_then(|start| search.solve(start, MOST_STEPS));
+    let plausible = search.starts.plausible([ones, vec![free.clone()]].concat());
+    let (of_free, ones): (Vec<Start>, Vec<Start>) = plausible.into_iter().partition(|start| start.contacts.is_empty());
+    // at first sight a free rod may look worse than it is: it has the direction of its middle
+    let free = search.solve(&free, if of_free.is_empty() { FEW_STEPS } else { MOST_STEPS });
     let singles = sorted(search.all(&ones, None));
     let is_free = |free: &Candidate| singles.first().is_none_or(|single| !single.is_worth(free));
     if let Some(free) = free.filter(is_free) {
@@ -133,18 +135,23 @@ impl<'a, M: RodModel> Search<'a, M> {
         solve(self.model, self.observed, start, self.allowed.friction, most_steps)
     }
 
-    /// The different shapes from these starts, the best of which come first. As soon as one explains the frame, the others are given up after a few
-    /// steps that do not come near to it; with a shape of fewer contacts that explains it, `simpler`, those that are not worth their contact.
+    /// The different shapes from these starts, the best of which come first. As soon as one leaves no more than chance often does, the others are given
+    /// up after a few steps that do not come near to it, and no more than a few are tried; with a shape of fewer contacts that explains
+    /// the frame, `simpler`, those are given up that are not worth their contact.
     fn all(&self, starts: &[Start], simpler: Option<&Candidate>) -> Vec<Candidate> {
         let mut found: Vec<Candidate> = Vec::new();
-        let most = if self.starts.is_blind() { usize::MAX } else { MOST_STARTS };
-        for start in starts.iter().take(most) {
-            let known = found.iter().filter(|one| one.explains()).map(|one| one.chi_squared).reduce(f64::min);
+        let is_blind = self.starts.is_blind();
+        for (number, start) in starts.iter().enumerate() {
+            let known = found.iter().filter(|one| one.p_value() > SETTLES).map(|one| one.chi_squared).reduce(f64::min);
+            let most = if known.is_some() || simpler.is_some() { FEW_STARTS } else { MOST_STARTS };
+            if number >= most && !is_blind {
+                break;
+            }
             let goes_on = |near: &Candidate, worth: f64| {
                 known.is_none_or(|known| near.chi_squared < NEAR * (known + near.freedom as f64))
                     && simpler.is_none_or(|simpler| near.worth(simpler) > worth)
             };
-            let is_sought = known.is_none() && simpler.is_none();
+            let is_sought = is_blind || (known.is_none() && simpler.is_none());
             let shape = if is_sought {
                 self.solve(start, MOST_STEPS)
             } else {
@@ -162,7 +169,7 @@ impl<'a, M: RodModel> Search<'a, M> {
     /// The shape with its single contact at the arc length `s`.
     pub fn held_at(&self, s: f64) -> Option<Candidate> {
         let starts = self.starts.one(self.model, Place::Side { s: Some(s), rub: self.allowed.rub() });
-        let solved = starts.iter().take(MOST_STARTS).filter_map(|start| self.solve(start, MOST_STEPS));
+        let solved = starts.iter().take(FEW_STARTS).filter_map(|start| self.solve(start, MOST_STEPS));
         solved.min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))
     }
 }

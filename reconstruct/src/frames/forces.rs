@@ -56,7 +56,34 @@ pub fn forces<R: PhysicalRod>(rod: &R, frames: &[Frame], settings: &ForceSetting
         Some(pole) if !pole.elsewhere.contains(&index) => of_frame(rod, frame, settings, sigma, Some(pole)),
         _ => of_frame(rod, frame, &without, sigma, None),
     };
-    Film { frames: frames.iter().enumerate().map(of).collect(), sigma: sigma * rod.units().length, pole }
+    let mut told: Vec<_> = frames.iter().enumerate().map(of).collect();
+    name_reversed(rod, frames, settings, sigma, &mut told);
+    Film { frames: told, sigma: sigma * rod.units().length, pole }
+}
+
+/// Names the frames whose points are in reverse order, if no shape explains most of the frames of the film: all were tracked in one way.
+fn name_reversed<R: PhysicalRod>(
+    rod: &R,
+    frames: &[Frame],
+    settings: &ForceSettings,
+    sigma: f64,
+    told: &mut [Result<FrameForces, FrameFault>],
+) {
+    let is_lost = |told: &Result<FrameForces, FrameFault>| {
+        told.as_ref().map_or_else(
+            |fault| matches!(fault, FrameFault::NoShape),
+            |told| told.verdict == FrameVerdict::NotExplained,
+        )
+    };
+    if 2 * told.iter().filter(|told| is_lost(told)).count() <= told.len() {
+        return;
+    }
+    for (told, frame) in told.iter_mut().zip(frames).filter(|(told, _)| is_lost(told)) {
+        let forward = told.as_ref().map_or(f64::INFINITY, |told| told.chi_squared);
+        if is_explained_reversed(rod, frame, settings, sigma, forward) {
+            *told = Err(FrameFault::Reversed);
+        }
+    }
 }
 
 /// The standard deviation of a pole, L, that is an observation of frames with the noise `sigma`.
@@ -99,9 +126,6 @@ fn of_frame<R: PhysicalRod>(
     let mut observed = Observed::new(frame, rod, sigma);
     observed.pole = pole.map(|pole| pole.in_lengths(&units, exact));
     let Chosen { best, rivals, unseen } = choose(rod.model(), &observed, allowed).ok_or(FrameFault::NoShape)?;
-    if !best.explains() && is_explained_reversed(rod, frame, settings, sigma, best.chi_squared) {
-        return Err(FrameFault::Reversed);
-    }
     let shortening = shortening(&best, &observed);
     if let Some((share, sigma)) = shortening
         && share > settings.most_shortening + SIGMAS * sigma

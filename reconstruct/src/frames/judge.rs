@@ -22,11 +22,11 @@ pub(super) fn verdict<'a>(
     if !best.explains() {
         return FrameVerdict::NotExplained;
     }
-    if best.covariance.is_none() || (!is_placed && !contacts.is_empty()) {
-        return FrameVerdict::Family;
-    }
     if contacts.is_empty() {
         return FrameVerdict::Free;
+    }
+    if best.covariance.is_none() || !is_placed {
+        return FrameVerdict::Family;
     }
     let place = |contact: &FrameContact| contact.sigmas()[0] / length;
     // what is anywhere within three tenths of the length is anywhere

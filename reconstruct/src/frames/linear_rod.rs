@@ -7,7 +7,7 @@ use super::observation::{Axis, Measurand};
 use super::seen::{Seen, hermite};
 use rod_core::{Cut, RodModel};
 
-/// Cells of the grid along the rod, and cells from one place to the next. Cells in pairs, by Simpson's rule.
+/// Cells of the grid along the rod, and cells from one place to the next. Cells in pairs of equal ones, for Simpson's rule.
 pub(super) const CELLS: usize = 64;
 pub(super) const STRIDE: usize = 2;
 /// Number of places on the side: all but the ends.
@@ -20,8 +20,10 @@ pub(super) type Row = [f64; COLUMNS];
 
 /// The linear model.
 pub(super) struct LinearRod {
+    /// Arc lengths of the nodes, L: closer to each other where the rod is soft.
+    pub arcs: Vec<f64>,
     /// The seen curve.
-    pub nodes: Vec<Cut>,
+    nodes: Vec<Cut>,
     /// Sine and cosine of its angles.
     directions: Vec<(f64, f64)>,
     /// What a unit of each column does.
@@ -37,9 +39,10 @@ struct Response {
 
 impl LinearRod {
     pub fn new<M: RodModel>(model: &M, seen: &Seen) -> Self {
-        let nodes: Vec<Cut> = (0..=CELLS).map(|k| seen.at(model, k as f64 / CELLS as f64)).collect();
+        let arcs = grid(model);
+        let nodes: Vec<Cut> = arcs.iter().map(|s| seen.at(model, *s)).collect();
         let directions: Vec<(f64, f64)> = nodes.iter().map(|node| node.phi.sin_cos()).collect();
-        Self { columns: columns(model, &nodes, &directions), nodes, directions }
+        Self { columns: columns(model, &arcs, &nodes, &directions), arcs, nodes, directions }
     }
 
     /// The displacement at an arc length by a unit of each column.
@@ -48,13 +51,27 @@ impl LinearRod {
     }
 
     fn way(&self, response: &Response, s: f64) -> [f64; 2] {
-        let (k, t) = cell(s);
+        let (k, t, h) = self.cell(s);
         let slope = |k: usize| {
             let (sin, cos) = self.directions[k];
-            [-sin * response.turn[k] / CELLS as f64, cos * response.turn[k] / CELLS as f64]
+            [-h * sin * response.turn[k], h * cos * response.turn[k]]
         };
         let (first, last) = (slope(k), slope(k + 1));
         [0, 1].map(|c| hermite(t, [response.way[k][c], response.way[k + 1][c]], [first[c], last[c]]))
+    }
+
+    /// The cell of the grid at an arc length, where in it, and its length.
+    fn cell(&self, s: f64) -> (usize, f64, f64) {
+        let inside = s.clamp(0.0, 1.0);
+        let k = self.arcs.partition_point(|arc| *arc <= inside).clamp(1, CELLS) - 1;
+        let h = self.arcs[k + 1] - self.arcs[k];
+        (k, (inside - self.arcs[k]) / h, h)
+    }
+
+    /// A number along the grid at an arc length.
+    fn between(&self, values: &[f64], s: f64) -> f64 {
+        let (k, t, _) = self.cell(s);
+        (1.0 - t) * values[k] + t * values[k + 1]
     }
 
     /// What a channel reads, by column.
@@ -76,13 +93,13 @@ impl LinearRod {
             Measurand::Curvature(s) => {
                 let rest = model.curvature_at(s, 0.0);
                 let compliance = model.curvature_at(s, 1.0) - rest;
-                compliance * between(&self.columns[k].moment, s) + if k == KNOWN { rest } else { 0.0 }
+                compliance * self.between(&self.columns[k].moment, s) + if k == KNOWN { rest } else { 0.0 }
             }
             Measurand::Marker(s, axis) => {
                 let index = axis.index();
                 let own = if k == KNOWN { self.at(s, &[]) } else { [0.0; 3] };
                 let moved = match index {
-                    2 => between(&self.columns[k].turn, s),
+                    2 => self.between(&self.columns[k].turn, s),
                     _ => self.way(&self.columns[k], s)[index],
                 };
                 own[index] + moved
@@ -105,7 +122,7 @@ impl LinearRod {
 
     /// Position and angle at an arc length: the seen curve with so much of some columns.
     pub fn at(&self, s: f64, parts: &[(usize, f64)]) -> [f64; 3] {
-        let ((k, t), h) = (cell(s), 1.0 / CELLS as f64);
+        let (k, t, h) = self.cell(s);
         let [from, to] = [k, k + 1].map(|k| (self.nodes[k], self.directions[k]));
         let x = hermite(t, [from.0.x, to.0.x], [h * from.1.1, h * to.1.1]);
         let y = hermite(t, [from.0.y, to.0.y], [h * from.1.0, h * to.1.0]);
@@ -113,23 +130,10 @@ impl LinearRod {
         for (column, size) in parts {
             let response = &self.columns[*column];
             let [x, y] = self.way(response, s);
-            at = [at[0] + size * x, at[1] + size * y, at[2] + size * between(&response.turn, s)];
+            at = [at[0] + size * x, at[1] + size * y, at[2] + size * self.between(&response.turn, s)];
         }
         at
     }
-}
-
-/// The cell of the grid at an arc length, and where in it.
-fn cell(s: f64) -> (usize, f64) {
-    let along = s.clamp(0.0, 1.0) * CELLS as f64;
-    let k = (along as usize).min(CELLS - 1);
-    (k, along - k as f64)
-}
-
-/// A number along the grid at an arc length.
-fn between(values: &[f64], s: f64) -> f64 {
-    let (k, t) = cell(s);
-    (1.0 - t) * values[k] + t * values[k + 1]
 }
 
 /// The node of a place.
@@ -138,10 +142,10 @@ pub(super) fn node_of(column: usize) -> usize {
 }
 
 /// What pose, forces and the curvature at rest do to the rod.
-fn columns<M: RodModel>(model: &M, nodes: &[Cut], directions: &[(f64, f64)]) -> Vec<Response> {
-    let rest: Vec<f64> = (0..=CELLS).map(|k| model.curvature_at(k as f64 / CELLS as f64, 0.0)).collect();
-    let compliance: Vec<f64> =
-        (0..=CELLS).map(|k| model.curvature_at(k as f64 / CELLS as f64, 1.0) - rest[k]).collect();
+fn columns<M: RodModel>(model: &M, arcs: &[f64], nodes: &[Cut], directions: &[(f64, f64)]) -> Vec<Response> {
+    let integral = |values: &[f64]| integral(arcs, values);
+    let rest: Vec<f64> = arcs.iter().map(|s| model.curvature_at(*s, 0.0)).collect();
+    let compliance: Vec<f64> = arcs.iter().map(|s| compliance(model, *s)).collect();
     let displaced = |moment: Vec<f64>, turn: Vec<f64>, start: [f64; 2]| {
         let part = |c: usize| -> Vec<f64> {
             let along = turn.iter().zip(directions).map(|(turn, (sin, cos))| turn * [-sin, *cos][c]);
@@ -177,11 +181,38 @@ fn columns<M: RodModel>(model: &M, nodes: &[Cut], directions: &[(f64, f64)]) -> 
     columns
 }
 
+/// The curvature per moment.
+fn compliance<M: RodModel>(model: &M, s: f64) -> f64 {
+    model.curvature_at(s, 1.0) - model.curvature_at(s, 0.0)
+}
+
+/// Pairs of equal cells, over each of which the fourth root of the compliance, the inverse of the diameter, has the same integral: a cone is divided
+/// in parts of one proportion.
+fn grid<M: RodModel>(model: &M) -> Vec<f64> {
+    let pairs = CELLS / 2;
+    // the integral from the base on, by the midpoints of four parts for each pair
+    let fine = 4 * pairs;
+    let mut sums = vec![0.0];
+    for k in 0..fine {
+        sums.push(sums[k] + compliance(model, (k as f64 + 0.5) / fine as f64).sqrt().sqrt());
+    }
+    let ends = (0..=pairs).map(|pair| {
+        let sought = sums[fine] * pair as f64 / pairs as f64;
+        let k = sums.partition_point(|sum| *sum <= sought).clamp(1, fine) - 1;
+        (k as f64 + (sought - sums[k]) / (sums[k + 1] - sums[k])) / fine as f64
+    });
+    let ends: Vec<f64> = ends.collect();
+    let mut arcs = vec![0.0];
+    arcs.extend(ends.windows(2).flat_map(|ends| [0.5 * (ends[0] + ends[1]), ends[1]]));
+    arcs[CELLS] = 1.0;
+    arcs
+}
+
 /// The integral from the first node to each, by Simpson's rule over pairs of cells.
-fn integral(values: &[f64]) -> Vec<f64> {
-    let h = 1.0 / CELLS as f64;
+fn integral(arcs: &[f64], values: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; values.len()];
     for k in (0..CELLS).step_by(2) {
+        let h = arcs[k + 1] - arcs[k];
         let [a, b, c] = [values[k], values[k + 1], values[k + 2]];
         sums[k + 1] = sums[k] + h / 12.0 * (5.0 * a + 8.0 * b - c);
         sums[k + 2] = sums[k] + h / 3.0 * (a + 4.0 * b + c);

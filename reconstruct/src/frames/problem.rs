@@ -8,7 +8,7 @@ use crate::least_squares::{NormalMatrix, Problem};
 use nalgebra::DVector;
 use rod_core::RodModel;
 
-/// Largest force (E I / L^2) that a contact is tried with: beyond it a rod is wound up.
+/// Largest force (E I / s^2 at the arc length s) that a contact is tried with: beyond it a rod is wound up.
 const MOST_FORCE: f64 = 400.0;
 /// How far (L) beyond an end the rod may go on where that is not seen.
 const BEYOND: f64 = 0.2;
@@ -82,7 +82,9 @@ impl<'a, M: RodModel> FrameProblem<'a, M> {
                 None => rows.along(self.model, &self.observed.channels[number - dots.len()], node),
             }
         })?;
-        if shape.force.ab.iter().any(|part| part.abs() > MOST_FORCE) {
+        let winds =
+            |contact: &Contact| contact.force.ab[0].hypot(contact.force.ab[1]) * contact.node.s.powi(2) > MOST_FORCE;
+        if shape.contacts.iter().any(winds) {
             return None;
         }
         for channel in &self.observed.channels {

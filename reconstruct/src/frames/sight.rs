@@ -7,7 +7,7 @@ use super::problem::Start;
 use super::seen::Seen;
 use super::shape::{Place, unknowns};
 use nalgebra::{DMatrix, DVector};
-use rod_core::RodModel;
+use rod_core::{Cut, RodModel};
 
 /// Share of a diagonal entry below which what the elimination left of it is rounding.
 const ROUNDING: f64 = 1e-11;
@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1e-11;
 const ACCURACY: f64 = 1e-4;
 /// How many times chi squared of the best shape another one may have at first sight.
 const HOPELESS: f64 = 5.0;
-/// Forces (E I / L^2) beyond which the displacement changes their moment: the prior of each is normal with this standard deviation, so that
+/// Forces (E I / s^2 at the arc length s) beyond which the displacement changes their moment: the prior of each is normal with this standard deviation, so that
 /// those that the shape does not tell, along a straight rod, stay small.
 const LARGE: f64 = 100.0;
 
@@ -44,11 +44,12 @@ impl Sight {
     /// The least squares of a frame whose dots show the shape.
     pub fn of<M: RodModel>(model: &M, observed: &Observed) -> Self {
         let seen = Seen::new(observed);
+        let rod = LinearRod::new(model, &seen);
         let mut sight = Self {
-            rod: LinearRod::new(model, &seen),
+            first: (1..=PLACES).find(|p| rod.arcs[p * STRIDE] > seen.feet[0]).unwrap_or(PLACES),
+            rod,
             matrix: DMatrix::zeros(COLUMNS, COLUMNS),
             count: 0.0,
-            first: (1..=PLACES).find(|p| (p * STRIDE) as f64 > seen.feet[0] * CELLS as f64).unwrap_or(PLACES),
             feet: seen.feet.iter().map(|foot| foot.clamp(0.0, 1.0)).collect(),
         };
         let mut rows: Vec<Row> = Vec::new();
@@ -79,7 +80,10 @@ impl Sight {
         let rows = DMatrix::from_fn(rows.len(), COLUMNS, |i, j| rows[i][j]);
         sight.count = rows.nrows() as f64;
         sight.matrix = rows.tr_mul(&rows);
-        (3..KNOWN).for_each(|force| sight.matrix[(force, force)] += LARGE.powi(-2));
+        for force in 3..KNOWN {
+            let s = if force < TIP { sight.rod.arcs[node_of(force)] } else { 1.0 };
+            sight.matrix[(force, force)] += (s * s / LARGE).powi(2);
+        }
         sight.eliminate_pose();
         sight
     }
@@ -146,7 +150,7 @@ impl Sight {
             pose.into_iter().enumerate().chain(forces.iter().copied()).chain([(KNOWN, 1.0)]).collect();
         let arc = |place: &Place, column: usize| match place {
             Place::Tip => 1.0,
-            Place::Side { s, .. } => s.unwrap_or(node_of(column) as f64 / CELLS as f64),
+            Place::Side { s, .. } => s.unwrap_or(self.rod.arcs[node_of(column)]),
         };
         let mut left = forces.iter();
         let mut u: Vec<f64> = Vec::with_capacity(unknowns(&contacts));
@@ -179,7 +183,8 @@ impl Sight {
 
     /// The rod at rest, in place and direction as its middle.
     pub fn free<M: RodModel>(&self, model: &M) -> Start {
-        let base = model.carry(0.5, &self.rod.nodes[CELLS / 2], 0.0, 0.0, -0.5);
+        let [x, y, phi] = self.rod.at(0.5, &[]);
+        let base = model.carry(0.5, &Cut { x, y, phi, moment: 0.0 }, 0.0, 0.0, -0.5);
         let u = DVector::from_column_slice(&[base.x, base.y, base.phi]);
         let chi_squared = self.matrix[(KNOWN, KNOWN)].max(0.0);
         Start { contacts: Vec::new(), u, feet: self.feet.clone(), chi_squared }
@@ -192,7 +197,7 @@ impl Sight {
                 return self.best(&[TIP, TIP + 1]).map(|tip| self.start(vec![place], &tip)).into_iter().collect();
             }
             Place::Side { s: Some(s), .. } => {
-                let near = (s * (PLACES + 1) as f64).round() as usize;
+                let near = self.rod.arcs.partition_point(|arc| *arc < s).div_ceil(STRIDE);
                 &[2 + near.clamp(1, PLACES)]
             }
             Place::Side { s: None, .. } => &std::array::from_fn::<usize, PLACES, _>(|k| 3 + k)[self.first - 1..],
@@ -204,7 +209,20 @@ impl Sight {
         let mut least: Vec<&Guess> =
             costs.iter().enumerate().filter(|(k, _)| is_least(*k)).filter_map(|(_, guess)| guess.as_ref()).collect();
         least.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
-        least.into_iter().map(|guess| self.start(vec![place], guess)).collect()
+        let starts = least.into_iter().map(|guess| self.start(vec![place], guess));
+        starts.chain(self.beside_the_tip(place)).collect()
+    }
+
+    /// A contact on the side next to the tip, from that at the tip: between them there is no place.
+    fn beside_the_tip(&self, place: Place) -> Option<Start> {
+        let Place::Side { s: None, rub } = place else { return None };
+        let at_tip = self.start(vec![Place::Tip], &self.best(&[TIP, TIP + 1])?);
+        let [x, y, phi, a, b] = at_tip.u.as_slice()[..] else { return None };
+        let (s, (sin, cos)) = (0.5 * (1.0 + self.rod.arcs[CELLS - 1]), phi.sin_cos());
+        let back = 1.0 - s;
+        let u =
+            [x - back * cos, y - back * sin, phi, s, a * cos + b * sin].into_iter().chain(rub.is_none().then_some(0.0));
+        Some(Start { contacts: vec![place], u: DVector::from_iterator(unknowns(&[place]), u), ..at_tip })
     }
 
     /// Starts with two contacts, the best first: where the cost over all pairs of places is least.
