@@ -269,13 +269,14 @@ pub struct Forces {
     /// Largest number of contacts
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=2), default_value_t = 2, allow_negative_numbers = true)]
     pub contacts: u8,
-    /// All frames that have a contact touch one round pole: found from them, or with its centre, in the unit of x and y
+    /// All frames that have a contact touch one round pole, and no frame has more than one contact. The pole is found from them; or its centre is given, as x and y are in the
+    /// table (with a minus sign: --pole=-3,5)
     #[arg(long, value_name = "X,Y", num_args = 0..=1, default_missing_value = "anywhere", value_parser = pole, allow_negative_numbers = true)]
     pub pole: Option<PoleCenter>,
     /// Radius of the pole, in the unit of x and y; 0 for an edge [default: found]
     #[arg(long, value_name = "RADIUS", requires = "pole", value_parser = not_negative, allow_negative_numbers = true)]
     pub pole_radius: Option<f64>,
-    /// Standard deviation of each coordinate of the centre that is given, in the unit of x and y [default: that of the points]
+    /// Standard deviation of each coordinate of the centre that is given, in the unit of x and y [default: a thousandth of the length of the rod]
     #[arg(long, value_name = "SIGMA", requires = "pole", value_parser = positive, allow_negative_numbers = true)]
     pub pole_sigma: Option<f64>,
     /// Largest apparent shortening of a rod of which both ends are seen, %: more is a rod bent out of the plane of the image

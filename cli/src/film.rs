@@ -1,7 +1,7 @@
 //! The command `forces`.
 
 use crate::arguments::{Forces, Visible};
-use crate::error::Error;
+use crate::error::{Error, OptionError};
 use crate::progress::stage;
 use crate::{UNFINISHED, read_setup, say, signals, warn};
 use rod_files::{Ends, FilmForces, FilmOptions, Staged, read_filmed_rod};
@@ -42,6 +42,13 @@ pub fn forces(arguments: Forces) -> Result<ExitCode, Error> {
         pole: None,
         most_shortening: shortening / 1e2,
     };
+    if pole.is_some_and(|pole| pole.0.is_none()) && pole_sigma.is_some() {
+        return Err(OptionError {
+            option: "--pole-sigma",
+            why: "is that of a centre, expected --pole X,Y with it".into(),
+        }
+        .into());
+    }
     let pole = pole.map(|center| PolePrior { center: center.0, sigma: pole_sigma, radius: pole_radius });
     let ends = match visible {
         Visible::Base => Ends::Base,

@@ -99,7 +99,7 @@ def forces(
     pole_radius : float, optional
         Its radius, m; 0 for an edge. Found from the frames where it is None.
     pole_sigma : float, optional
-        Standard deviation of each coordinate of a centre that is given, m; that of the points where it is None.
+        Standard deviation of each coordinate of a centre that is given, m; a thousandth of the length of the rod where it is None.
     shortening : float
         Largest apparent shortening of a rod of which both ends are seen, as a share of its length.
 
@@ -130,9 +130,18 @@ def forces(
         given = ", ".join(channels) if channels else "none"
         raise ValueError(f"setup has no effect: the channels are {given}, expected any of {', '.join(_OF_SENSOR)} beside it")
     free = None if rest is None else _flat(rest, "rest")
-    if pole is False and (pole_radius is not None or pole_sigma is not None):
-        raise ValueError("pole_radius or pole_sigma is given without pole, expected pole=True, or its centre")
-    prior = None if pole is False else (None if pole is True else (float(pole[0]), float(pole[1])), pole_sigma, pole_radius)
+    if pole is False and pole_radius is not None:
+        raise ValueError("pole_radius is given without pole, expected pole=True, or its centre")
+    center: tuple[float, float] | None = None
+    if not isinstance(pole, bool):
+        try:
+            x, y = (float(part) for part in pole)
+        except (TypeError, ValueError):
+            raise ValueError(f"pole is {pole!r}, expected True, False or its centre (x, y) in m") from None
+        center = (x, y)
+    elif pole_sigma is not None:
+        raise ValueError("pole_sigma is given without the centre of the pole, expected pole=(x, y)")
+    prior = None if pole is False else (center, pole_sigma, pole_radius)
     return _forces(rod, _flat(frames, "frames"), free, columns, setup, visible, sigma, friction, contacts, prior, shortening)
 
 

@@ -10,6 +10,12 @@ use vibrissa::reconstruct::{Frame, FrameVerdict};
 const MOST_FAULTS: usize = 5;
 /// Noise that is found, as a share of that which is given, from which on it is told.
 const LESS_NOISE: f64 = 0.3;
+/// Probability of what a pole leaves below which it is told.
+const DOUBTFUL: f64 = 0.05;
+/// Noise that is found, L, from which on it is told: points of tracked rods have less.
+const MUCH_NOISE: f64 = 5e-3;
+/// Length of the points along the rod, as a share of that of the rod, from which on they are too long: noise makes them a little longer.
+const TOO_LONG: f64 = 1.03;
 /// Length of the points along the rod, as a share of the length of the rod, below which it is told which end is taken as seen.
 const WHOLE: f64 = 0.97;
 
@@ -30,7 +36,9 @@ impl FilmForces {
         }
         let verdicts: Vec<String> = verdicts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
         writeln!(text, "{}: {}: {}", self.name, counted(self.frames.len(), "frame"), verdicts.join(", "))?;
-        let has_points = |((_, frame), told): (&(i64, Frame), &Result<_, _>)| frame.points.len() > 2 && told.is_ok();
+        let has_points = |((_, frame), told): (&(i64, Frame), &Result<_, _>)| {
+            frame.points.len() > 2 && frame.points.iter().any(|point| point.sigma.is_none()) && told.is_ok()
+        };
         if self.frames.iter().zip(&self.film.frames).any(has_points) {
             let length = self.rod.rod.length();
             writeln!(
@@ -56,13 +64,14 @@ impl FilmForces {
             let [x, y, radius] = pole.sigmas();
             writeln!(
                 text,
-                "pole: x {:.6} +- {x:.1e} m, y {:.6} +- {y:.1e} m, radius {:.6}{} m; {} at it, {} elsewhere",
+                "pole: x {:.6} +- {x:.1e} m, y {:.6} +- {y:.1e} m, radius {:.6}{} m; {} at it, {} elsewhere; p {:.2}",
                 pole.center[0],
                 pole.center[1],
                 pole.radius,
                 if radius > 0.0 { format!(" +- {radius:.1e}") } else { String::new() },
                 counted(pole.frames.len(), "frame"),
-                pole.elsewhere.len()
+                pole.elsewhere.len(),
+                pole.p_value
             )?;
         }
         if !self.rod.is_stiffness_known {
@@ -100,19 +109,41 @@ impl FilmForces {
                  from the base?"
             ));
         }
-        if self.is_at_pole && self.film.pole.is_none() {
-            warnings.push(
-                "no pole explains the contacts of more than half of the frames: each frame is judged without it; is the object fixed, and are positions \
-                 those of one camera?"
-                    .into(),
-            );
-        }
+        warnings.extend(self.pole_in_doubt());
         warnings.extend(self.less_noise());
+        warnings.extend(self.much_noise());
         warnings.extend(self.part_of_the_rod());
         if !self.ignored.is_empty() {
             warnings.push(format!("not used: column {}", self.ignored.join(", ")));
         }
         warnings
+    }
+
+    /// A pole that does not explain the frames, or hardly.
+    fn pole_in_doubt(&self) -> Option<String> {
+        let Some(pole) = self.film.pole.as_ref() else {
+            let told = "each frame is judged without a pole";
+            return match (self.is_at_pole, self.is_pole_given) {
+                (false, _) => None,
+                (true, true) => Some(format!(
+                    "the frames contradict the pole that is given: {told}; --pole alone finds the pole that the frames show, if there is one"
+                )),
+                (true, false) => Some(format!(
+                    "no pole explains nine tenths of the frames with a contact: {told}; is there one round object, and is it fixed?"
+                )),
+            };
+        };
+        let elsewhere: Vec<String> =
+            pole.elsewhere.iter().filter_map(|index| Some(self.frames.get(*index)?.0.to_string())).collect();
+        if !elsewhere.is_empty() {
+            return Some(format!("the contact is not at the pole in frame {}", elsewhere.join(", ")));
+        }
+        (pole.p_value < DOUBTFUL).then(|| {
+            format!(
+                "chance makes the pole explain the frames as badly with a probability of {:.3} only: does it move?",
+                pole.p_value
+            )
+        })
     }
 
     /// Points that are far less noisy than they are said to be.
@@ -123,14 +154,25 @@ impl FilmForces {
         let share = *shares.get(shares.len() / 2)?;
         (self.is_noise_given && share < LESS_NOISE).then(|| {
             format!(
-                "the points are {:.0} times less noisy than the standard deviation that is given, {:.2e} m: forces that they show may be told as noise",
+                "the points are {:.0} times less noisy than the standard deviation that is given, {:.2e} m: forces may be taken for noise; --sigma is in m, also with --scale",
                 1.0 / share.max(1e-9),
                 self.film.sigma
             )
         })
     }
 
-    /// A rod of which the points show a part only.
+    /// Noise that is no noise.
+    fn much_noise(&self) -> Option<String> {
+        let share = self.film.sigma / self.rod.rod.length();
+        (!self.is_noise_given && share > MUCH_NOISE && self.frames.iter().any(|(_, frame)| frame.points.len() > 3)).then(|| {
+            format!(
+                "the shapes leave {:.1} % of the length as noise of the points, more than tracked points have: are length, shape at rest and scale right?",
+                1e2 * share
+            )
+        })
+    }
+
+    /// A rod of which the points show a part only, or more than there is.
     fn part_of_the_rod(&self) -> Option<String> {
         let mut shares: Vec<f64> = self
             .frames
@@ -143,10 +185,16 @@ impl FilmForces {
             .collect();
         shares.sort_unstable_by(f64::total_cmp);
         let share = *shares.get(shares.len() / 2)?;
+        if share > TOO_LONG {
+            return Some(format!(
+                "the points show {:.0} % of the rod: is its length, or the scale, that of the film?",
+                1e2 * share
+            ));
+        }
         let first = &self.frames.iter().find(|(_, frame)| frame.points.len() > 2)?.1;
         let taken = match (first.base_is_first, first.tip_is_last) {
             (true, false) => {
-                "the first point is taken as the base and the tip as not seen; if it is the base that is hidden, say --visible tip"
+                "the first point is taken as the base and the tip as not seen; if the base is hidden, say --visible tip; if neither is, the rod is shorter than its file says"
             }
             (false, true) => "the last point is taken as the tip and the base as not seen",
             _ => return None,

@@ -1,9 +1,9 @@
 //! One set of contacts, solved for.
 
-use super::observed::Observed;
+use super::observed::{Dot, Observed};
 use super::problem::{FrameProblem, Left, Start};
 use super::shape::{Place, Shape, trace};
-use crate::least_squares::{Damped, Monotone, Status, iterate};
+use crate::least_squares::{Damped, Monotone, Problem, Status, iterate};
 use nalgebra::{DMatrix, DVector};
 use rod_core::RodModel;
 
@@ -14,6 +14,11 @@ pub(super) const SOME_STEPS: usize = 18;
 pub(super) const FEW_STEPS: usize = 6;
 /// Most rounds of steps: damped ones first, then lightly damped ones.
 const ROUNDS: usize = 5;
+/// Growth of chi squared, one expected, between which it counts as quadratic; evaluations until foot points have followed; noise of points (L) below
+/// which chi squared is rounding.
+const GROWTH: (f64, f64) = (0.3, 3.0);
+const FOLLOWS: usize = 3;
+const ROUNDING: f64 = 1e-10;
 /// Share of chi squared by which it falls no more.
 const SETTLED: f64 = 1e-3;
 /// Standard deviations (dimensionless) of channels with which exact ones are solved first.
@@ -113,6 +118,30 @@ impl Candidate {
     /// A start with other contacts and unknowns.
     pub fn start_with(&self, contacts: Vec<Place>, u: DVector<f64>) -> Start {
         Start { contacts, u, feet: self.feet.clone(), chi_squared: self.chi_squared }
+    }
+
+    /// Whether chi squared grows as the covariance says, by one, along the direction in which the unknowns are known worst together, one standard
+    /// deviation each way. In a curved valley it does not, and the standard deviations are too small. Not looked at with exact observations, which
+    /// are curved at once.
+    pub fn is_quadratic<M: RodModel>(&self, model: &M, observed: &Observed, friction: f64) -> bool {
+        let Some(covariance) = &self.covariance else { return false };
+        let sizes = covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
+        let is_exact = |dot: &Dot| dot.sigma < ROUNDING;
+        if !observed.channels.is_empty() || observed.pole.is_some() || observed.dots.iter().any(is_exact) {
+            return true;
+        }
+        let scaled = DMatrix::from_fn(sizes.len(), sizes.len(), |i, j| covariance[(i, j)] / (sizes[i] * sizes[j]));
+        let directions = scaled.symmetric_eigen();
+        let worst = directions.eigenvalues.imax();
+        let step = directions.eigenvectors.column(worst).component_mul(&sizes) * directions.eigenvalues[worst].sqrt();
+        // the bounds of friction make deviations smaller than chi squared does
+        let least = if friction > 0.0 { f64::NEG_INFINITY } else { GROWTH.0 };
+        let mut problem = FrameProblem::new(model, observed, &self.contacts, self.feet.clone());
+        [1.0, -1.0].into_iter().all(|side| {
+            let moved = &self.u + &step * side;
+            let cost = (0..FOLLOWS).fold(f64::NAN, |_, _| problem.equations(&moved).cost);
+            (least..GROWTH.1).contains(&(cost - self.chi_squared))
+        })
     }
 
     /// The number of the unknown that is the force of a contact across the rod, if that along it is unknown too: the next one.

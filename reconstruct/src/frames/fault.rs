@@ -6,7 +6,7 @@
 pub enum FrameFault {
     /// Fewer numbers than a free rod has unknowns.
     #[error(
-        "{points} points and {channels} channels, expected points at 3 places at least, or the pose of the base and a reaction"
+        "{points} points and {channels} channels, expected points at 3 places at least, or the pose of the base (three numbers) and one number more"
     )]
     TooFew {
         /// Points on the rod.

@@ -104,13 +104,7 @@ fn film_pole<R: PhysicalRod>(
     let touches: Vec<Touch> = usable
         .filter_map(|(index, frame)| Touch::of(rod.model(), index, Observed::new(frame, rod, sigma), allowed))
         .collect();
-    let search = PoleSearch {
-        model: rod.model(),
-        allowed,
-        prior: prior.in_lengths(units.length),
-        noise: sigma,
-        exact: exact(sigma),
-    };
+    let search = PoleSearch { model: rod.model(), allowed, prior: prior.in_lengths(units.length), exact: exact(sigma) };
     search.pole(touches, &units)
 }
 
@@ -144,6 +138,9 @@ fn of_frame<R: PhysicalRod>(
     let is_placed = !rod.model().is_uniform() || observed.ends != [false; 2] || !observed.channels.is_empty();
     let verdict = verdict(&best, is_placed, &told.contacts, of_rivals.iter().flatten(), units.length);
     told.verdict = verdict;
+    if verdict == FrameVerdict::Told && !best.is_quadratic(rod.model(), &observed, allowed.friction) {
+        told.verdict = FrameVerdict::Rough;
+    }
     // what another explanation says differs from this one by an error of this one
     for (rival, contacts) in rivals.iter().zip(of_rivals) {
         let other = FrameForces::of(rival, verdict, contacts, &units);

@@ -10,7 +10,7 @@ use rod_core::Units;
 pub struct PolePrior {
     /// Its centre, m; found from the frames where it is not known.
     pub center: Option<[f64; 2]>,
-    /// Standard deviation of each coordinate of a centre that is known, m; that of the points where it is not known.
+    /// Standard deviation of each coordinate of a centre that is known, m; a thousandth of the length of the rod where it is not known.
     pub sigma: Option<f64>,
     /// Its radius, m; found from the frames where it is not known. Points of a surface that is small beside the way of the contact on the
     /// rod are a pole of radius 0.

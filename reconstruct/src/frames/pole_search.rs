@@ -22,6 +22,10 @@ const MOST_HALVINGS: usize = 5;
 /// probability below which no pole explains the frames.
 const BEYOND_CHANCE: f64 = 3.0902;
 const CHANCE: f64 = 1e-3;
+/// Largest share of the frames whose contact is elsewhere, rounded up.
+const MOST_ELSEWHERE: f64 = 0.1;
+/// Standard deviation of each coordinate of a given centre that nobody tells, L.
+const KNOWN: f64 = 1e-3;
 /// Standard deviation (L) from which on the contacts of the frames on their own do not tell where to begin. Then the contact of one frame
 /// is tried at so many places, with so many frames.
 const VAGUE: f64 = 0.1;
@@ -64,14 +68,12 @@ pub(super) struct PoleSearch<'a, M> {
     pub allowed: Allowed,
     /// Lengths in L.
     pub prior: PolePrior,
-    /// Standard deviation of the points, L.
-    pub noise: f64,
     /// Standard deviation of the pole in each frame, L: so exact that it is a condition.
     pub exact: f64,
 }
 
 impl<M: RodModel> PoleSearch<'_, M> {
-    /// The pole of the frames that have a contact; none where no pole explains more than half of them.
+    /// The pole of the frames that have a contact; none where no pole explains most of them, or the frames contradict what is given.
     pub fn pole(&self, mut touches: Vec<Touch>, units: &Units) -> Option<FilmPole> {
         let radius = self.prior.radius.unwrap_or(0.0);
         let center = match self.prior.center {
@@ -93,10 +95,13 @@ impl<M: RodModel> PoleSearch<'_, M> {
         let mut elsewhere = Vec::new();
         while let Some(worst) = worst(&touches) {
             elsewhere.push(touches.remove(worst).index);
-            if touches.len() <= elsewhere.len() {
+            if elsewhere.len() > (MOST_ELSEWHERE * (touches.len() + elsewhere.len()) as f64).ceil() as usize {
                 return None;
             }
             equations = self.settle(&mut touches, &mut pole, has_radius)?;
+        }
+        if self.is_contradicted(&touches, pole, &equations) {
+            return None;
         }
         let of_frames: isize = touches.iter().filter_map(|touch| touch.with.as_ref()).map(|with| with.freedom).sum();
         let known = if self.prior.center.is_some() { 2 } else { 0 };
@@ -118,6 +123,19 @@ impl<M: RodModel> PoleSearch<'_, M> {
             frames: touches.iter().map(|touch| touch.index).collect(),
             elsewhere,
         })
+    }
+
+    /// Whether another pole than the one that is given suits the frames better than chance does.
+    fn is_contradicted(&self, touches: &[Touch], pole: Pole, given: &PoleEquations) -> bool {
+        let PolePrior { center, radius, .. } = self.prior;
+        let numbers = 2 * usize::from(center.is_some()) + usize::from(radius.is_some());
+        if numbers == 0 {
+            return false;
+        }
+        let free = PoleSearch { prior: PolePrior::default(), ..*self };
+        let (mut others, mut other) = (touches.to_vec(), pole);
+        let found = free.settle(&mut others, &mut other, true);
+        found.is_some_and(|found| given.chi_squared - found.chi_squared > wilson_hilferty(numbers, BEYOND_CHANCE))
     }
 
     /// Moves the pole to where the frames have the least chi squared. None where the frames do not tell its place.
@@ -181,7 +199,7 @@ impl<M: RodModel> PoleSearch<'_, M> {
             touch.with = Some(with);
         }
         if let Some(center) = self.prior.center {
-            let sigma = self.prior.sigma.unwrap_or(self.noise).max(self.exact);
+            let sigma = self.prior.sigma.unwrap_or(KNOWN).max(self.exact);
             for axis in [0, 1] {
                 let off = (pole.center[axis] - center[axis]) / sigma;
                 equations.matrix[(axis, axis)] += sigma.powi(-2);

@@ -11,7 +11,8 @@ pub enum FrameVerdict {
     /// Contacts, forces and reactions are determined.
     Told,
     /// A contact is there, but its place and its force are known roughly only (standard deviations of more than a tenth of the length, or of
-    /// half of the force), or there are as many unknowns as numbers, so that nothing checks them: what they do together, the moment at the base, may be known well.
+    /// half of the force), or their standard deviations are those of a curved valley of chi squared and too small, or there are as many unknowns as
+    /// numbers, so that nothing checks them: what they do together, the moment at the base, may be known well.
     Rough,
     /// Place and force are not told apart at all: a whole family of them explains the frame.
     Family,
