@@ -36,6 +36,7 @@ impl Quantity {
 
 /// A column of measured numbers with its standard deviations, none where a cell has none.
 struct Column {
+    name: String,
     quantity: Quantity,
     cells: Vec<Option<(f64, Option<f64>)>>,
 }
@@ -98,7 +99,8 @@ pub(super) fn channels(mut table: Numbers, rod: &FilmedRod, mounting: &Mounting)
                 }
                 value.map(|value| (value, sigma))
             };
-            Column { quantity, cells: (0..numbers.len()).map(&mut cell).collect() }
+            let cells = (0..numbers.len()).map(&mut cell).collect();
+            Column { name: table.names()[column].clone(), quantity, cells }
         })
         .collect();
     table.check()?;
@@ -156,27 +158,41 @@ pub fn channels_of_columns(
             let sigma = sigma.and_then(|(_, sigmas)| sigmas.get(row).copied().and_then(known));
             known(*value).map(|value| (value, sigma))
         };
-        found.push(Column { quantity, cells: values.iter().enumerate().map(cell).collect() });
+        found.push(Column { name: name.clone(), quantity, cells: values.iter().enumerate().map(cell).collect() });
     }
     if faults.is_empty() { with_noise(&found, count, length, mounting) } else { Err(faults.join("\n")) }
 }
 
 /// The channels of each row; those whose noise no column tells have that of their column.
 fn with_noise(columns: &[Column], rows: usize, length: f64, mounting: &Mounting) -> Result<Vec<Vec<Channel>>, String> {
-    let noise = columns.iter().map(|Column { quantity, cells }| {
-        sigma_of(*quantity, &cells.iter().flatten().map(|(value, _)| *value).collect::<Vec<_>>(), length)
+    for (k, column) in columns.iter().enumerate() {
+        if let Some(same) = columns[..k].iter().find(|other| other.quantity == column.quantity) {
+            return Err(format!("{} and {} measure the same, expected one of them", same.name, column.name));
+        }
+    }
+    let noise = columns.iter().map(|Column { name, quantity, cells }| {
+        let known = cells.iter().flatten();
+        let noise = sigma_of(*quantity, &known.clone().map(|(value, _)| *value).collect::<Vec<_>>(), length);
+        if noise == 0.0 && known.clone().any(|(_, sigma)| sigma.is_none()) {
+            return Err(format!("{name} is 0 everywhere, which tells no standard deviation, expected sigma_{name}"));
+        }
+        Ok(noise)
     });
-    let noise: Vec<f64> = noise.collect();
+    let noise: Vec<f64> = noise.collect::<Result<_, _>>()?;
     let turns = sensor::turns(mounting);
     let of = |row: usize| {
         let angle = |of: fn(Axis) -> Measurand| {
-            let column = columns.iter().find(|column| column.quantity == Quantity::Of(of(Axis::Angle)))?;
-            column.cells[row].map(|(angle, _)| angle)
+            let k = columns.iter().position(|column| column.quantity == Quantity::Of(of(Axis::Angle)))?;
+            columns[k].cells[row].map(|(angle, sigma)| (angle, sigma.unwrap_or(noise[k])))
         };
         let phi = angle(Measurand::Support).or_else(|| angle(Measurand::Base));
+        let (phi, sigma_phi) = phi.unzip();
+        let components = columns.iter().filter(|column| matches!(column.quantity, Quantity::Sensor(0..=2)));
+        let force = components.filter_map(|column| column.cells[row]).map(|(part, _)| part * part).sum::<f64>().sqrt();
         let mut channels = Vec::new();
-        for (Column { quantity, cells }, noise) in columns.iter().zip(&noise) {
+        for (Column { quantity, cells, .. }, noise) in columns.iter().zip(&noise) {
             let Some((value, sigma)) = cells[row] else { continue };
+            let mut sigma = sigma.unwrap_or(*noise);
             let quantity = match quantity {
                 Quantity::Of(quantity) => Some(*quantity),
                 Quantity::Sensor(_) if turns && phi.is_none() => {
@@ -184,11 +200,19 @@ fn with_noise(columns: &[Column], rows: usize, length: f64, mounting: &Mounting)
                         "row {row} (from 0): the sensor turns with the clamp, expected phi0 beside its numbers"
                     ));
                 }
-                Quantity::Sensor(component) => sensor::combination(mounting, *component, phi.unwrap_or_default()),
+                Quantity::Sensor(component) => {
+                    let of = |phi| sensor::combination(mounting, *component, phi);
+                    let phi = phi.unwrap_or_default();
+                    // the error of the angle turns the force
+                    if let Some(sigma_phi) = sigma_phi.filter(|_| turns) {
+                        sigma = sigma.hypot(force * sensor::change(of(phi), of(phi + sigma_phi)));
+                    }
+                    of(phi)
+                }
             };
             // what is across the plane tells nothing
             let Some(quantity) = quantity else { continue };
-            channels.push(Channel { quantity, value, sigma: sigma.unwrap_or(*noise) });
+            channels.push(Channel { quantity, value, sigma });
         }
         Ok(channels)
     };
@@ -245,12 +269,36 @@ fn sigma_of(quantity: Quantity, values: &[f64], length: f64) -> f64 {
 }
 
 fn share_of_largest(values: &[f64]) -> f64 {
-    SHARE * values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()))
+    SHARE * values.iter().fold(0.0, |most, value| value.abs().max(most))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_that_are_the_same_or_zero_are_refused() {
+        let columns = |names: &[&str], value: f64| -> Vec<(String, Vec<f64>)> {
+            names.iter().map(|name| ((*name).to_owned(), vec![value])).collect()
+        };
+        let of = |names: &[&str], value| channels_of_columns(&columns(names, value), LENGTH, &at_base()).unwrap_err();
+        assert_eq!(of(&["x@0.05", "x@0.050"], 1.0), "x@0.05 and x@0.050 measure the same, expected one of them");
+        assert!(of(&["f0x"], 0.0).contains("expected sigma_f0x"));
+        assert!(channels_of_columns(&columns(&["x0", "phi0"], 0.0), LENGTH, &at_base()).is_ok());
+    }
+
+    /// A force of 2 N, whose direction is known to 0.01 rad.
+    #[test]
+    fn the_error_of_the_angle_turns_a_force() {
+        let mounting = at_base().turning_with_clamp(0.0).unwrap();
+        let columns =
+            [("phi0", 0.3), ("sigma_phi0", 0.01), ("Fx", 2.0), ("sigma_Fx", 1e-3), ("Fy", 0.0), ("sigma_Fy", 1e-3)];
+        let columns: Vec<(String, Vec<f64>)> = columns.map(|(name, value)| (name.to_owned(), vec![value])).to_vec();
+        let rows = channels_of_columns(&columns, LENGTH, &mounting).unwrap();
+        for channel in &rows[0][1..] {
+            assert!((channel.sigma - 0.02).abs() < 1e-4, "{channel:?}");
+        }
+    }
 
     const LENGTH: f64 = 0.1;
 

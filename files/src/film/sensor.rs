@@ -30,6 +30,14 @@ pub(super) fn combination(mounting: &Mounting, component: usize, phi: f64) -> Op
     weights.iter().any(|weight| weight.abs() > ROUNDING).then_some(Measurand::Reaction(weights))
 }
 
+/// By how much the weights of the two forces differ between two combinations.
+pub(super) fn change(one: Option<Measurand>, other: Option<Measurand>) -> f64 {
+    match (one, other) {
+        (Some(Measurand::Reaction([ax, ay, _])), Some(Measurand::Reaction([bx, by, _]))) => (ax - bx).hypot(ay - by),
+        _ => 0.0,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -9,6 +9,8 @@ use super::MOST_TAPERED;
 const ROUNDING: f64 = 1e-9;
 /// Most faults that are told.
 const MOST_FAULTS: usize = 5;
+/// Largest number of points: each is an end of an element, so that more of them take longer.
+const MOST_POINTS: usize = 1000;
 
 /// Cones from the clamp to the tip, each with the diameter that the one before it ends with. Dimensionless: arc lengths in L, diameters in that at
 /// the clamp.
@@ -89,6 +91,13 @@ pub(super) fn step(points: &[[f64; 2]]) -> RodError {
 /// [`RodError::Diameters`] with all that is wrong.
 pub(super) fn check(length: f64, points: &[[f64; 2]]) -> Result<(), RodError> {
     let mut faults = Vec::new();
+    if points.len() > MOST_POINTS {
+        let expected = format!(
+            "diameter has {} points, expected at most {MOST_POINTS}: a part of them says as much",
+            points.len()
+        );
+        return Err(RodError::Diameters { faults: vec![expected] });
+    }
     if points.len() < 2 {
         faults.push(format!("diameter has {} points, expected two or more, from the clamp to the tip", points.len()));
     }
