@@ -120,30 +120,26 @@ impl FilmForces {
     }
 
     /// A pole that does not explain the frames, or hardly.
-    fn pole_in_doubt(&self) -> Option<String> {
+    fn pole_in_doubt(&self) -> Vec<String> {
         let Some(pole) = self.film.pole.as_ref() else {
             let told = "each frame is judged without a pole";
             return match (self.is_at_pole, self.is_pole_given) {
-                (false, _) => None,
-                (true, true) => Some(format!(
+                (false, _) => Vec::new(),
+                (true, true) => vec![format!(
                     "the frames contradict the pole that is given: {told}; --pole alone finds the pole that the frames show, if there is one"
-                )),
-                (true, false) => Some(format!(
+                )],
+                (true, false) => vec![format!(
                     "no pole explains nine tenths of the frames with a contact: {told}; is there one round object, and is it fixed?"
-                )),
+                )],
             };
         };
-        let elsewhere: Vec<String> =
-            pole.elsewhere.iter().filter_map(|index| Some(self.frames.get(*index)?.0.to_string())).collect();
-        if !elsewhere.is_empty() {
-            return Some(format!("the contact is not at the pole in frame {}", elsewhere.join(", ")));
-        }
-        (pole.p_value < DOUBTFUL).then(|| {
-            format!(
-                "chance makes the pole explain the frames as badly with a probability of {:.3} only: does it move?",
-                pole.p_value
-            )
-        })
+        let numbers = pole.elsewhere.iter().filter_map(|index| Some(self.frames.get(*index)?.0.to_string()));
+        let elsewhere: Vec<String> = numbers.collect();
+        let elsewhere = (!elsewhere.is_empty())
+            .then(|| format!("the contact is not at the pole in frame {}", elsewhere.join(", ")));
+        let doubtful = (pole.p_value < DOUBTFUL)
+            .then(|| format!("the pole explains the frames with p = {:.3} only: does it move?", pole.p_value));
+        elsewhere.into_iter().chain(doubtful).collect()
     }
 
     /// Points that are far less noisy than they are said to be.
