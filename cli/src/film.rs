@@ -76,6 +76,6 @@ pub fn forces(arguments: Forces) -> Result<ExitCode, Error> {
     let is_fine = faults == 0
         && unexplained as f64 <= by_chance
         && found.other_at_rest.is_none()
-        && (!found.is_at_pole || found.film.pole.is_some());
+        && (found.settings.pole.is_none() || found.film.pole.is_some());
     Ok(if is_fine { ExitCode::SUCCESS } else { ExitCode::from(UNFINISHED) })
 }

@@ -411,3 +411,26 @@ fn random_contacts_at_any_noise() {
         }
     }
 }
+
+/// Columns have the same names in messages as in tables.
+#[test]
+fn numbers_that_are_none_are_named_as_in_tables() {
+    let rod = &rods()[0].0;
+    let message = |quantity, value, sigma| {
+        let channels = vec![Channel { quantity, value, sigma }];
+        forces(rod, &[Frame { channels, ..Frame::default() }], &ForceSettings::default()).frames[0]
+            .clone()
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(
+        message(Measurand::Marker(0.01, Axis::Y), f64::NAN, 1.0),
+        "the value of y@0.01 is NaN, expected a finite number"
+    );
+    assert_eq!(
+        message(Measurand::Reaction([0.0, 0.0, 1.0]), 1.0, 0.0),
+        "sigma of m0z is 0, expected a standard deviation larger than 0"
+    );
+    assert!(message(Measurand::Base(Axis::Angle), 1.0, -1.0).contains("base_phi"));
+    assert!(message(Measurand::Support(Axis::X), 1.0, -1.0).contains("sigma of x0"));
+}

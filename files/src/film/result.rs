@@ -31,12 +31,8 @@ pub struct FilmForces {
     pub film: Film,
     /// The frame of the free rod that has another shape than the others, if there is one: by its number, from 0 where the frames have none.
     pub other_at_rest: Option<i64>,
-    /// Whether a pole was looked for.
-    pub is_at_pole: bool,
-    /// Whether its centre or radius was given.
-    pub is_pole_given: bool,
-    /// Whether the noise of the points was given.
-    pub is_noise_given: bool,
+    /// How they were judged.
+    pub settings: ForceSettings,
     /// Columns that are not used; of another table than that of the frames with its file.
     pub ignored: Vec<String>,
 }
@@ -110,24 +106,11 @@ impl FilmForces {
         };
         let only: Vec<Frame> = frames.iter().map(|(_, frame)| frame.clone()).collect();
         let mut film = forces(&rod.rod, &only, settings);
-        let (is_noise_given, is_at_pole) = (settings.sigma.is_some(), settings.pole.is_some());
-        let is_pole_given = settings.pole.is_some_and(|pole| pole.center.is_some() || pole.radius.is_some());
-        let settings = ForceSettings { sigma: Some(film.sigma), ..*settings };
-        let others: Vec<Film> = others.iter().map(|other| forces(other, &only, &settings)).collect();
+        let same_noise = ForceSettings { sigma: Some(film.sigma), ..*settings };
+        let others: Vec<Film> = others.iter().map(|other| forces(other, &only, &same_noise)).collect();
         film.add_errors_of_the_rod(&others);
         let other_at_rest = rest.as_ref().and_then(|rest| rest.other).map(|other| other as i64);
-        Ok(Self {
-            name,
-            rod,
-            rest,
-            frames,
-            film,
-            other_at_rest,
-            is_at_pole,
-            is_pole_given,
-            is_noise_given,
-            ignored: Vec::new(),
-        })
+        Ok(Self { name, rod, rest, frames, film, other_at_rest, settings: *settings, ignored: Vec::new() })
     }
 
     /// Writes forces.jsonl, forces.csv, contacts.csv, and rest.json and pole.json where a shape at rest and a pole were found.

@@ -121,10 +121,12 @@ impl FilmForces {
 
     /// A pole that does not explain the frames, or hardly.
     fn pole_in_doubt(&self) -> Vec<String> {
+        let Some(prior) = self.settings.pole else { return Vec::new() };
         let Some(pole) = self.film.pole.as_ref() else {
             let told = "each frame is judged without a pole";
-            return match (self.is_at_pole, self.is_pole_given) {
-                (false, _) => Vec::new(),
+            let has_contacts = self.film.frames.iter().flatten().any(|told| !told.contacts.is_empty());
+            return match (has_contacts, prior.center.is_some() || prior.radius.is_some()) {
+                (false, _) => vec!["no frame has a contact, so that none shows a pole".into()],
                 (true, true) => vec![format!(
                     "the frames contradict the pole that is given: {told}; --pole alone finds the pole that the frames show, if there is one"
                 )],
@@ -148,7 +150,7 @@ impl FilmForces {
         let mut shares: Vec<f64> = told.map(|told| (told.chi_squared / told.freedom as f64).sqrt()).collect();
         shares.sort_unstable_by(f64::total_cmp);
         let share = *shares.get(shares.len() / 2)?;
-        (self.is_noise_given && share < LESS_NOISE).then(|| {
+        (self.settings.sigma.is_some() && share < LESS_NOISE).then(|| {
             format!(
                 "the points are {:.0} times less noisy than the standard deviation that is given, {:.2e} m: forces may be taken for noise; --sigma is in m, also with --scale",
                 1.0 / share.max(1e-9),
@@ -160,7 +162,7 @@ impl FilmForces {
     /// Noise that is no noise.
     fn much_noise(&self) -> Option<String> {
         let share = self.film.sigma / self.rod.rod.length();
-        (!self.is_noise_given && share > MUCH_NOISE && self.frames.iter().any(|(_, frame)| frame.points.len() > 3)).then(|| {
+        (self.settings.sigma.is_none() && share > MUCH_NOISE && self.frames.iter().any(|(_, frame)| frame.points.len() > 3)).then(|| {
             format!(
                 "the shapes leave {:.1} % of the length as noise of the points, more than tracked points have: are length, shape at rest and scale right?",
                 1e2 * share

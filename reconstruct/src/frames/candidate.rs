@@ -124,12 +124,12 @@ impl Candidate {
     /// deviation each way. In a curved valley it does not, and the standard deviations are too small. Not looked at with exact observations, which
     /// are curved at once.
     pub fn is_quadratic<M: RodModel>(&self, model: &M, observed: &Observed, friction: f64) -> bool {
-        let Some(covariance) = &self.covariance else { return false };
-        let sizes = covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
         let is_exact = |dot: &Dot| dot.sigma < ROUNDING;
         if !observed.channels.is_empty() || observed.pole.is_some() || observed.dots.iter().any(is_exact) {
             return true;
         }
+        let Some(covariance) = &self.covariance else { return false };
+        let sizes = covariance.diagonal().map(|variance| variance.max(0.0).sqrt());
         let scaled = DMatrix::from_fn(sizes.len(), sizes.len(), |i, j| covariance[(i, j)] / (sizes[i] * sizes[j]));
         let directions = scaled.symmetric_eigen();
         let worst = directions.eigenvalues.imax();

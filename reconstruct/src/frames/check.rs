@@ -31,7 +31,7 @@ pub(super) fn check(length: f64, frame: &Frame, sigma: f64) -> Result<(), FrameF
         }
     }
     for Channel { quantity, value, sigma } in &frame.channels {
-        let of = || format!("the channel {quantity:?}");
+        let of = || quantity.to_string();
         if !value.is_finite() {
             return Err(number("the value", of(), *value, "a finite number"));
         }

@@ -9,10 +9,10 @@ use super::start::Starts;
 use crate::numeric::chi_squared::{upper_tail, wilson_hilferty};
 use rod_core::RodModel;
 
-/// Quantile of the standard normal distribution for a contact to be told: one in a thousand frames without it shows it by chance. The same
-/// probability below which a shape does not explain its frame.
+/// Quantile of the standard normal distribution for a contact to be told: one in a thousand frames without it shows it by chance. The same for a frame
+/// to contradict a pole. And the same probability, below which a shape does not explain its frame, or a pole its film.
 pub(super) const BEYOND_CHANCE: f64 = 3.0902;
-const CHANCE: f64 = 1e-3;
+pub(super) const CHANCE: f64 = 1e-3;
 /// Where on a free rod a force is looked for that is not seen, L.
 const MIDDLE: f64 = 0.5;
 /// Probability that chance leaves as much, from which on a solution is taken without a look for a better one: there may be another minimum.
@@ -104,9 +104,12 @@ pub(super) fn choose<M: RodModel>(model: &M, observed: &Observed, allowed: Allow
     let singles = sorted(search.all(&ones, None));
     let is_free = |free: &Candidate| singles.first().is_none_or(|single| !single.is_worth(free));
     if let Some(free) = free.filter(is_free) {
-        // no contact with the pole: a force that is not seen is another one
-        let anywhere = Observed { pole: None, ..observed.clone() };
-        return Some(Chosen { unseen: Search::of(model, &anywhere, allowed).held_at(MIDDLE), ..Chosen::of(free) });
+        let unseen = match observed.pole {
+            None => search.held_at(MIDDLE),
+            // no contact with the pole: a force that is not seen is another one
+            Some(_) => Search::of(model, &Observed { pole: None, ..observed.clone() }, allowed).held_at(MIDDLE),
+        };
+        return Some(Chosen { unseen, ..Chosen::of(free) });
     }
     let single = singles.first()?;
     if single.p_value() > SETTLES || allowed.contacts == 1 {

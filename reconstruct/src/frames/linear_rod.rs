@@ -91,9 +91,8 @@ impl LinearRod {
             Measurand::Base(axis) => pose(k, axis),
             Measurand::Support(axis) => pose(k, axis) + reactions(k, compliance[axis.index()]),
             Measurand::Curvature(s) => {
-                let rest = model.curvature_at(s, 0.0);
-                let compliance = model.curvature_at(s, 1.0) - rest;
-                compliance * self.between(&self.columns[k].moment, s) + if k == KNOWN { rest } else { 0.0 }
+                let rest = if k == KNOWN { model.natural_curvature(s) } else { 0.0 };
+                curvature_per_moment(model, s) * self.between(&self.columns[k].moment, s) + rest
             }
             Measurand::Marker(s, axis) => {
                 let index = axis.index();
@@ -144,8 +143,8 @@ pub(super) fn node_of(column: usize) -> usize {
 /// What pose, forces and the curvature at rest do to the rod.
 fn columns<M: RodModel>(model: &M, arcs: &[f64], nodes: &[Cut], directions: &[(f64, f64)]) -> Vec<Response> {
     let integral = |values: &[f64]| integral(arcs, values);
-    let rest: Vec<f64> = arcs.iter().map(|s| model.curvature_at(*s, 0.0)).collect();
-    let compliance: Vec<f64> = arcs.iter().map(|s| compliance(model, *s)).collect();
+    let rest: Vec<f64> = arcs.iter().map(|s| model.natural_curvature(*s)).collect();
+    let compliance: Vec<f64> = arcs.iter().map(|s| curvature_per_moment(model, *s)).collect();
     let displaced = |moment: Vec<f64>, turn: Vec<f64>, start: [f64; 2]| {
         let part = |c: usize| -> Vec<f64> {
             let along = turn.iter().zip(directions).map(|(turn, (sin, cos))| turn * [-sin, *cos][c]);
@@ -182,8 +181,8 @@ fn columns<M: RodModel>(model: &M, arcs: &[f64], nodes: &[Cut], directions: &[(f
 }
 
 /// The curvature per moment.
-fn compliance<M: RodModel>(model: &M, s: f64) -> f64 {
-    model.curvature_at(s, 1.0) - model.curvature_at(s, 0.0)
+pub(super) fn curvature_per_moment<M: RodModel>(model: &M, s: f64) -> f64 {
+    model.curvature_at(s, 1.0) - model.natural_curvature(s)
 }
 
 /// Pairs of equal cells, over each of which the fourth root of the compliance, the inverse of the diameter, has the same integral: a cone is divided
@@ -194,7 +193,7 @@ fn grid<M: RodModel>(model: &M) -> Vec<f64> {
     let fine = 4 * pairs;
     let mut sums = vec![0.0];
     for k in 0..fine {
-        sums.push(sums[k] + compliance(model, (k as f64 + 0.5) / fine as f64).sqrt().sqrt());
+        sums.push(sums[k] + curvature_per_moment(model, (k as f64 + 0.5) / fine as f64).sqrt().sqrt());
     }
     let ends = (0..=pairs).map(|pair| {
         let sought = sums[fine] * pair as f64 / pairs as f64;

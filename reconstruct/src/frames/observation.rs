@@ -1,5 +1,7 @@
 //! What was seen of a rod at one instant.
 
+use std::fmt;
+
 /// Everything that was measured at one instant, SI units: points on the rod, numbers at its base, or both.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
@@ -61,6 +63,23 @@ pub enum Axis {
     Y,
     /// The slope angle, rad.
     Angle,
+}
+
+/// As the columns of tables are named.
+impl fmt::Display for Measurand {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = |axis: &Axis| ["x", "y", "phi"][axis.index()];
+        match self {
+            Self::Reaction([1.0, 0.0, 0.0]) => f.write_str("f0x"),
+            Self::Reaction([0.0, 1.0, 0.0]) => f.write_str("f0y"),
+            Self::Reaction([0.0, 0.0, 1.0]) => f.write_str("m0z"),
+            Self::Reaction([x, y, m]) => write!(f, "{x} f0x + {y} f0y + {m} m0z"),
+            Self::Base(axis) => write!(f, "base_{}", name(axis)),
+            Self::Support(axis) => write!(f, "{}0", name(axis)),
+            Self::Curvature(s) => write!(f, "kappa@{s}"),
+            Self::Marker(s, axis) => write!(f, "{}@{s}", name(axis)),
+        }
+    }
 }
 
 impl Axis {

@@ -5,7 +5,7 @@
 //! own unknowns: Gauss-Newton on the least chi squared of all frames.
 
 use super::candidate::{Candidate, MOST_STEPS, solve};
-use super::choose::{Allowed, Search, choose};
+use super::choose::{Allowed, BEYOND_CHANCE, CHANCE, Search, choose};
 use super::observed::Observed;
 use super::pole::{Centre, FilmPole, Pole, PolePrior};
 use crate::numeric::chi_squared::{upper_tail, wilson_hilferty};
@@ -18,13 +18,9 @@ const SETTLED: f64 = 1e-2;
 /// Longest step, L, and how often it is halved where chi squared grows.
 const MOST_WAY: f64 = 0.1;
 const MOST_HALVINGS: usize = 5;
-/// Quantile of the standard normal distribution beyond which a frame contradicts the pole, and a radius is worth its unknown; the
-/// probability below which no pole explains the frames.
-const BEYOND_CHANCE: f64 = 3.0902;
-const CHANCE: f64 = 1e-3;
 /// Largest share of the frames whose contact is elsewhere, rounded up.
 const MOST_ELSEWHERE: f64 = 0.1;
-/// Standard deviation of each coordinate of a given centre that nobody tells, L.
+/// Standard deviation of each coordinate of a given centre where none is given, L.
 const KNOWN: f64 = 1e-3;
 /// Standard deviation (L) from which on the contacts of the frames on their own do not tell where to begin. Then the contact of one frame
 /// is tried at so many places, with so many frames.
@@ -104,18 +100,18 @@ impl<M: RodModel> PoleSearch<'_, M> {
             return None;
         }
         let of_frames: isize = touches.iter().filter_map(|touch| touch.with.as_ref()).map(|with| with.freedom).sum();
-        let known = if self.prior.center.is_some() { 2 } else { 0 };
-        let freedom = (of_frames + known - 2 - isize::from(has_radius)).max(0) as usize;
+        let given = if self.prior.center.is_some() { 2 } else { 0 };
+        let freedom = (of_frames + given - 2 - isize::from(has_radius)).max(0) as usize;
         let p_value = upper_tail(equations.chi_squared, freedom.max(1) as f64);
         let covariance = equations.matrix.try_inverse().filter(|_| p_value > CHANCE)?;
         elsewhere.sort_unstable();
-        let known = |i: usize| i < 2 || has_radius;
+        let is_found = |i: usize| i < 2 || has_radius;
         let square = units.length * units.length;
         Some(FilmPole {
             center: pole.center.map(|c| c * units.length),
             radius: pole.radius * units.length,
             covariance: std::array::from_fn(|i| {
-                std::array::from_fn(|j| if known(i) && known(j) { covariance[(i, j)] * square } else { 0.0 })
+                std::array::from_fn(|j| if is_found(i) && is_found(j) { covariance[(i, j)] * square } else { 0.0 })
             }),
             chi_squared: equations.chi_squared,
             freedom,

@@ -1,5 +1,6 @@
 //! Least squares: the unknowns of a shape from the observations of a frame.
 
+use super::linear_rod::curvature_per_moment;
 use super::observation::Measurand;
 use super::observed::{Dot, Measured, Observed};
 use super::pole::{Centre, Pole};
@@ -136,9 +137,8 @@ impl Rows {
         let Measured { quantity, value, sigma } = *channel;
         match quantity {
             Measurand::Curvature(s) => {
-                let (at, compliance) =
-                    (model.curvature_at(s, 0.0), model.curvature_at(s, 1.0) - model.curvature_at(s, 0.0));
-                self.add(|k| compliance * node.by[k][3], at + compliance * node.cut.moment - value, sigma);
+                let compliance = curvature_per_moment(model, s);
+                self.add(|k| compliance * node.by[k][3], model.curvature_at(s, node.cut.moment) - value, sigma);
             }
             Measurand::Marker(_, axis) => {
                 let of = [node.cut.x, node.cut.y, node.cut.phi];

@@ -103,7 +103,7 @@ impl<'a> Starts<'a> {
                     Place::Side { .. } => Place::Side { s: Some(s), rub: Some(0.0) },
                     Place::Tip => Place::Tip,
                 }];
-                let u = with_contact(cut, held[0], turn / unit, unknowns(&held));
+                let u = with_contact(cut, held[0], turn / unit);
                 let mut problem = FrameProblem::new(model, self.observed, &held, feet.clone());
                 let (at, _) = iterate(&mut problem, u, Damped::lightly(), HELD_STEPS);
                 let chi_squared = at.equations.cost;
@@ -123,13 +123,12 @@ impl<'a> Starts<'a> {
 }
 
 /// The unknowns of one contact at `cut`, held at its arc length, with a force across the rod.
-fn with_contact(cut: Cut, place: Place, force: f64, count: usize) -> DVector<f64> {
+fn with_contact(cut: Cut, place: Place, force: f64) -> DVector<f64> {
     let mut u = vec![cut.x, cut.y, cut.phi];
     match place {
         Place::Tip => u.extend([force * cut.phi.cos(), force * cut.phi.sin()]),
         Place::Side { .. } => u.push(force),
     }
-    u.resize(count, 0.0);
     DVector::from_vec(u)
 }
 
