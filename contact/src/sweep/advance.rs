@@ -1,5 +1,6 @@
 //! The loop of the sweep: one round at a time, from a point of a branch to the next.
 
+use super::resume::Departure;
 use super::rubbing::contact_at_rest;
 use super::{Stage, Sweep};
 use crate::contact_set::edit::{beside_corner, over_sliver};
@@ -27,7 +28,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     }
 
     /// The first point of a leg: of the given equilibrium, or of the one that is found in the first pose.
-    fn begin_leg(&mut self, given: Option<Configuration>) -> Result<(), StopReason> {
+    fn begin_leg(&mut self, given: Option<Departure>) -> Result<(), StopReason> {
         let Setup { world, path, rod } = self.setup();
         if world.rubs() && rod.clamp(path.at(0.0)).roller().is_some() {
             return Err(StopReason::RollerFriction);
@@ -108,7 +109,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         let path = &self.setup().path;
         let is_beyond = point.configuration.tau() > path.length() + LIMITS.sweep.at_end;
         let passed = path.parameter(path.length(), self.setup().rod.units().length);
-        let configuration = point.configuration.clone();
+        let departure = Departure::from_end(&point);
         self.stage = Stage::Over(Some(point));
         if self.course.is_last() {
             return Ok(());
@@ -118,7 +119,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             return Err(StopReason::NoLanding);
         }
         if let Some(way) = self.course.next_leg(passed) {
-            self.set_out(way, configuration);
+            self.set_out(way, departure);
         }
         Ok(())
     }

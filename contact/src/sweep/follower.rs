@@ -1,8 +1,8 @@
 //! A rod that is moved step by step, from one equilibrium to the next.
 
 use super::leg::Course;
+use super::resume::Departure;
 use super::{Item, Stage, Sweep};
-use crate::contact_set::Configuration;
 use crate::continuation::Point;
 use crate::error::{ContactError, Stop, StopReason};
 use crate::friction::Friction;
@@ -39,7 +39,7 @@ use rod_core::{PhysicalRod, Pose, Rod};
 #[derive(Debug)]
 pub struct Follower<'a, R = Rod> {
     sweep: Sweep<'a, R>,
-    configuration: Configuration,
+    at: Box<Point>,
     /// The clamp, dimensionless.
     pose: Pose,
     state: State,
@@ -131,7 +131,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
     /// The rod at the first pose of the path of `sweep`.
     fn at_rest(sweep: Sweep<'a, R>, at: Point) -> Self {
         let (state, pose) = (sweep.state(&at), sweep.setup().path.at(0.0));
-        Self { sweep, configuration: at.configuration, pose, state, most_steps: LIMITS.sweep.most_steps }
+        Self { sweep, at: Box::new(at), pose, state, most_steps: LIMITS.sweep.most_steps }
     }
 
     /// The equilibrium that the rod is in.
@@ -156,21 +156,21 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         };
         let (way, here) = (path.length(), path.at(path.length()));
         self.sweep.stepper.steps_left = self.most_steps;
-        self.sweep.set_out(path.into(), self.configuration.clone());
+        self.sweep.set_out(path.into(), Departure::from_end(&self.at));
         self.sweep.course = Course::to_end(way);
         let share = |tau: f64| (tau / way).min(1.0);
         let mut items = Vec::new();
         while let Some(item) = self.sweep.next() {
             items.push(item.map_err(|stop| Stop { tau: share(self.sweep.reached_tau()), ..stop })?);
         }
-        match (items.last(), &self.sweep.stage) {
-            (Some(Item::State(state)), Stage::Over(Some(at))) => {
-                (self.state, self.configuration, self.pose) = (state.clone(), at.configuration.clone(), here);
-                Ok(items)
-            }
-            // a snap has landed further along the path than the clamp goes
-            _ => Err(Stop { tau: 1.0, ..self.sweep.stop(StopReason::NoLanding) }),
+        if let (Some(Item::State(state)), Stage::Over(end)) = (items.last(), &mut self.sweep.stage)
+            && let Some(at) = end.take()
+        {
+            (self.state, self.at, self.pose) = (state.clone(), at, here);
+            return Ok(items);
         }
+        // a snap has landed further along the path than the clamp goes
+        Err(Stop { tau: 1.0, ..self.sweep.stop(StopReason::NoLanding) })
     }
 }
 
@@ -180,8 +180,8 @@ impl<R: PhysicalRod> Clone for Follower<'_, R> {
         let setup = self.sweep.setup().clone();
         let mut sweep = Sweep::from_setup(setup, LIMITS.sweep.most_steps, 1.0, 0);
         sweep.ends_at_jump = self.sweep.ends_at_jump;
-        let Self { configuration, pose, state, most_steps, .. } = self;
-        Self { sweep, configuration: configuration.clone(), pose: *pose, state: state.clone(), most_steps: *most_steps }
+        let Self { at, pose, state, most_steps, .. } = self;
+        Self { sweep, at: at.clone(), pose: *pose, state: state.clone(), most_steps: *most_steps }
     }
 }
 

@@ -14,7 +14,6 @@ mod rubbing;
 pub use follower::Follower;
 pub use outcome::{Approach, Item, Outcome, Start, StartCandidate};
 
-use crate::contact_set::Configuration;
 use crate::continuation::branch::Corrector;
 use crate::continuation::stepper::Stepper;
 use crate::continuation::{Point, Step};
@@ -27,6 +26,7 @@ use crate::scene::way::Way;
 use crate::state::State;
 use advance::Crowd;
 use leg::{Course, Leg, legs};
+use resume::Departure;
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Rod};
 use std::collections::VecDeque;
@@ -57,7 +57,7 @@ pub struct Sweep<'a, R = Rod> {
 #[derive(Debug)]
 enum Stage {
     /// Before the first point of a leg, which begins with an equilibrium that is given, or that is looked for.
-    Begins(Option<Box<Configuration>>),
+    Begins(Option<Box<Departure>>),
     /// At a point of a branch; with the step from there, while poses on it are reported.
     At(Box<Point>, Option<Step>),
     /// At its end, and at the last point, if there was one.
@@ -123,7 +123,7 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
             return Err(ContactError::Elsewhere { path: first, state: pose });
         }
         let mut sweep = Self::along(rod, objects.as_ref(), legs(path, rod.units())?, |_| step)?;
-        sweep.stage = Stage::Begins(Some(Box::new(sweep.recall_state(state)?)));
+        sweep.stage = Stage::Begins(Some(Box::new(sweep.recall_state(state)?.into())));
         sweep.start = Some(Start::Given);
         Ok(sweep)
     }
@@ -175,8 +175,8 @@ impl<'a, R: PhysicalRod> Sweep<'a, R> {
     }
 
     /// Sets out anew on another path (dimensionless), from an equilibrium at its first pose.
-    fn set_out(&mut self, path: Way, mut from: Configuration) {
-        from.set_tau(0.0);
+    fn set_out(&mut self, path: Way, mut from: Departure) {
+        from.configuration.set_tau(0.0);
         self.stepper.corrector.setup.path = path;
         self.stepper.h = LIMITS.step.first;
         self.stage = Stage::Begins(Some(Box::new(from)));

@@ -4,12 +4,34 @@ use super::Sweep;
 use crate::contact_set::guess::{by_forces, configuration_of_guess, contacts_of_guess};
 use crate::contact_set::{Configuration, Unknowns};
 use crate::continuation::branch::{Corrector, Tangent};
-use crate::continuation::certify::energy;
+use crate::continuation::certify::{Quality, energy};
 use crate::continuation::{Point, Step};
 use crate::error::{ContactError, StopReason};
+use crate::gap::Scan;
 use crate::limits::LIMITS;
 use crate::state::{Contact, State};
 use rod_core::PhysicalRod;
+
+/// An equilibrium from which a leg begins.
+#[derive(Debug)]
+pub(super) struct Departure {
+    pub configuration: Configuration,
+    /// Its scan and its quality, where another leg has ended there: neither depends on the way from there on.
+    certified: Option<(Scan, Quality)>,
+}
+
+impl Departure {
+    /// From the end of another leg.
+    pub fn from_end(end: &Point) -> Self {
+        Self { configuration: end.configuration.clone(), certified: Some((end.scan.clone(), end.quality)) }
+    }
+}
+
+impl From<Configuration> for Departure {
+    fn from(configuration: Configuration) -> Self {
+        Self { configuration, certified: None }
+    }
+}
 
 impl<R: PhysicalRod> Sweep<'_, R> {
     /// The configuration of a state at the first pose of the path.
@@ -28,15 +50,21 @@ impl<R: PhysicalRod> Sweep<'_, R> {
 
     /// The point to begin with. At a fold two branches meet. The sweep takes the stable one, if the path parameter grows along it. Otherwise the
     /// equilibrium ends here: the returned step ends the branch, and the rod snaps.
-    pub(super) fn resume(&mut self, given: Configuration) -> Result<(Point, Option<Step>), StopReason> {
-        if self.setup().world.rubs() && given.count() > 0 {
-            return self.resume_rubbing(given);
+    pub(super) fn resume(&mut self, given: Departure) -> Result<(Point, Option<Step>), StopReason> {
+        if self.setup().world.rubs() && given.configuration.count() > 0 {
+            return self.resume_rubbing(given.configuration);
         }
         Ok(self.resume_smooth(given))
     }
 
-    fn resume_smooth(&mut self, given: Configuration) -> (Point, Option<Step>) {
-        let mut point = self.point_of(given);
+    fn resume_smooth(&mut self, Departure { configuration, certified }: Departure) -> (Point, Option<Step>) {
+        let mut point = match certified {
+            Some((scan, quality)) => {
+                let (tangent, _) = self.stepper.corrector.inspect_at_pose(&configuration);
+                Point { configuration, scan, quality, tangent }
+            }
+            None => self.point_of(configuration),
+        };
         if point.tangent.by_tau() > LIMITS.resume.least_tau_rate && point.quality.stable {
             return (point, None);
         }
