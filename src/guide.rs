@@ -9,6 +9,9 @@ pub mod add_a_shape {}
 #[doc = include_str!("../docs/add-a-sensor.md")]
 pub mod add_a_sensor {}
 
+#[doc = include_str!("../docs/how-it-works.md")]
+pub mod how_it_works {}
+
 #[doc = include_str!("../docs/sweep.md")]
 pub mod sweep {}
 
