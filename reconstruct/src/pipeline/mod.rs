@@ -22,7 +22,6 @@ mod session;
 mod settings;
 mod several;
 mod tell_apart;
-mod torn;
 
 pub use each_pass::reconstruct_passes;
 pub use explanation::{Explanation, explanations};

@@ -3,11 +3,10 @@
 use super::answers::Answers;
 use super::nearest::NearestPlace;
 use super::reading::{Reading, Reason};
-use super::torn::torn;
-use crate::phase::{Break, Label, ScanPhases};
+use crate::phase::{Break, Label};
 use crate::point::{Inverse, Touch};
 use crate::scan::TrackIndex;
-use crate::two_contacts::{Around, Limits, Neighbour, Passed, Piece, Resolution, Unresolved, resolve};
+use crate::two_contacts::{Limits, Neighbour, Piece, Resolution, Unresolved, resolve};
 use std::ops::Range;
 
 /// Samples at the border of two phases that are left out, besides those within the uncertainty of its kink.
@@ -51,51 +50,23 @@ impl<I: Inverse> Answers<'_, I> {
                 start = end;
             }
         }
-        let from = readings.len();
-        // the numbers of readings at which parts begin, and whether the reactions jump there
-        let mut parts: Vec<(usize, bool)> = vec![(from, true)];
         let smooth: Vec<&[Piece]> = pieces.chunk_by(|_, next| !jumps(breaks, next.range.start)).collect();
         for (k, pieces) in smooth.iter().enumerate() {
             let beside = [before.as_ref().filter(|_| k == 0), after.as_ref().filter(|_| k + 1 == smooth.len())];
-            let resolved = if self.rod.tells_last() {
-                self.as_labelled(pieces, beside, breaks)
-            } else {
-                self.tell_apart(pieces, beside, breaks)
-            };
+            let resolved =
+                if self.rod.tells_last() { self.as_labelled(pieces, beside) } else { self.tell_apart(pieces, beside) };
             for together in resolved {
-                if readings.len() > from {
-                    let start = together.pieces.first().map_or(0, |piece| piece.range.start);
-                    parts.push((readings.len(), jumps(breaks, start)));
-                }
                 self.read(together, readings);
-            }
-        }
-        self.doubt_torn(start, &parts, readings);
-    }
-
-    /// Takes back the answers to neighbouring parts, the first of which starts at sample `start`, that contradict each other.
-    fn doubt_torn(&self, start: usize, parts: &[(usize, bool)], readings: &mut [Reading]) {
-        let Some(&(from, _)) = parts.first() else { return };
-        let tau = &self.track.tau[start..];
-        let ends = parts.iter().skip(1).map(|part| part.0).chain([readings.len()]);
-        let ranges: Vec<Range<usize>> = parts.iter().zip(ends).map(|(part, end)| part.0..end).collect();
-        let several = &readings[from..];
-        let torn: Vec<usize> =
-            (1..parts.len()).filter(|&k| !parts[k].1 && torn(several, tau, parts[k].0 - from, self.units)).collect();
-        for k in torn.into_iter().flat_map(|k| [k - 1, k]) {
-            for reading in &mut readings[ranges[k].clone()] {
-                let reason = Reason::Several(Unresolved::Torn);
-                *reading = Reading { touch: Err(reason), second: Some(Err(reason)), ..*reading };
             }
         }
     }
 
     /// Pieces without jumps in between, resolved as the phases label them. A kink within a phase divides them.
-    fn as_labelled(&self, pieces: &[Piece], beside: [Option<&Neighbour>; 2], breaks: &[Break]) -> Vec<Together> {
+    fn as_labelled(&self, pieces: &[Piece], beside: [Option<&Neighbour>; 2]) -> Vec<Together> {
         let parts: Vec<&[Piece]> = pieces.chunk_by(|piece, next| piece.label != next.label).collect();
         let resolved = |k: usize| {
             let here = [beside[0].filter(|_| k == 0), beside[1].filter(|_| k + 1 == parts.len())];
-            self.together(parts[k].to_vec(), here, breaks)
+            self.together(parts[k].to_vec(), here)
         };
         (0..parts.len()).map(resolved).collect()
     }
@@ -109,31 +80,8 @@ impl<I: Inverse> Answers<'_, I> {
         (border - from.min(border)).min(track.len())
     }
 
-    /// The shapes of the rod on both sides of these pieces, up to where they are not known or jump.
-    fn passed(&self, pieces: &[Piece], breaks: &[Break]) -> Passed {
-        let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return Passed::default() };
-        let ScanPhases { places, labels, .. } = self.phases;
-        let (start, end) = (first.range.start, last.range.end);
-        let to = places.partition_point(|place| place.index < start);
-        let from = places.partition_point(|place| place.index < end);
-        // the jumps next to the pieces are none of those beyond them
-        let jumps = || breaks.iter().filter(|here| here.jump).map(|here| here.index);
-        let least = jumps().rfind(|index| *index < start).unwrap_or(0);
-        let most = jumps().find(|index| *index > end).unwrap_or(self.track.len());
-        let known = |k: &usize| !labels[*k].0.several() && (least..most).contains(&places[*k].index);
-        let clamp = |k: usize| (places[k].fit.at(self.track.tau[places[k].index]).clamp, labels[k].0);
-        let before = (0..to).rev().take_while(known).map(clamp).collect();
-        let after = (from..places.len()).take_while(known).map(clamp).collect();
-        Passed::new(self.rod, [before, after])
-    }
-
     /// Pieces that are joined without a jump, resolved with what is beside them.
-    pub(super) fn together(
-        &self,
-        pieces: Vec<Piece>,
-        neighbours: [Option<&Neighbour>; 2],
-        breaks: &[Break],
-    ) -> Together {
+    pub(super) fn together(&self, pieces: Vec<Piece>, neighbours: [Option<&Neighbour>; 2]) -> Together {
         let borders = pieces.iter().flat_map(|piece| [piece.range.start, piece.range.end]);
         let margin = borders.map(|border| self.unsure(border)).max().unwrap_or(0) + MARGIN;
         let limits = Limits { across: self.settings.largest_sigma.min(ACROSS), margin, ..Limits::default() };
@@ -144,8 +92,7 @@ impl<I: Inverse> Answers<'_, I> {
             }
             _ => Vec::new(),
         };
-        let around = Around { neighbours, passed: &self.passed(&pieces, breaks) };
-        let found = resolve(self.rod, self.track, self.noise, &pieces, around, &limits, &displacements);
+        let found = resolve(self.rod, self.track, self.noise, &pieces, neighbours, &limits, &displacements);
         Together { pieces, found }
     }
 

@@ -5,7 +5,7 @@
 
 use super::answers::Answers;
 use super::several::Together;
-use crate::phase::{Break, Label};
+use crate::phase::Label;
 use crate::point::{Inverse, Touch};
 use crate::two_contacts::{AS_GOOD, Neighbour, Pair, Piece, Unresolved};
 use nalgebra::Vector2;
@@ -40,12 +40,7 @@ impl<I: Inverse> Answers<'_, I> {
     /// Pieces without jumps in between, resolved with the labels that explain most samples best. Between pieces with one label are kinks
     /// that divide them. Those that nothing explains keep the labels of the phases. Where the other labels explain the reactions as well by
     /// contacts elsewhere, both are ambiguous.
-    pub(super) fn tell_apart(
-        &self,
-        pieces: &[Piece],
-        beside: [Option<&Neighbour>; 2],
-        breaks: &[Break],
-    ) -> Vec<Together> {
+    pub(super) fn tell_apart(&self, pieces: &[Piece], beside: [Option<&Neighbour>; 2]) -> Vec<Together> {
         let mut all: Vec<Together> = Vec::new();
         // up to each piece, which is BA or BB
         let mut best: Vec<[Way; 2]> = Vec::with_capacity(pieces.len());
@@ -62,7 +57,7 @@ impl<I: Inverse> Answers<'_, I> {
                     }
                     let labelled = (start..=end).map(labelled).collect();
                     let here = [beside[0].filter(|_| start == 0), beside[1].filter(|_| end + 1 == pieces.len())];
-                    let together = self.together(labelled, here, breaks);
+                    let together = self.together(labelled, here);
                     // a piece before it that belongs to other ones has the same label
                     let before = start.checked_sub(1).map(|k| &best[k][usize::from(label(start) == Label::BB)]);
                     let mut way = before.cloned().unwrap_or_default();

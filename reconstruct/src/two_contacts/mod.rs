@@ -21,7 +21,6 @@ mod guess;
 mod misfit;
 mod pair;
 mod part;
-mod passed;
 mod resolve;
 mod run;
 mod series;
@@ -37,7 +36,6 @@ mod unresolved;
 mod weights;
 
 pub(crate) use pair::{Limits, Pair};
-pub(crate) use passed::Passed;
-pub(crate) use resolve::{Around, Neighbour, Piece, Resolution, resolve};
+pub(crate) use resolve::{Neighbour, Piece, Resolution, resolve};
 pub(crate) use run::AS_GOOD;
 pub use unresolved::Unresolved;

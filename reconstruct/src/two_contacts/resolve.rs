@@ -2,7 +2,6 @@
 
 use super::displaced::displaced;
 use super::pair::{Limits, Pair, answer};
-use super::passed::Passed;
 use super::run::solve;
 use super::series::Series;
 use super::single::Single;
@@ -34,15 +33,6 @@ pub(crate) struct Neighbour {
     pub label: Label,
 }
 
-/// What is known on both sides of a run.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Around<'a> {
-    /// The neighbouring stretches with one contact, if the reactions do not jump there.
-    pub neighbours: [Option<&'a Neighbour>; 2],
-    /// Where the rod passes.
-    pub passed: &'a Passed,
-}
-
 /// Both contacts of each sample of a run, and how well they explain it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Resolution {
@@ -72,7 +62,7 @@ pub(crate) fn resolve<I: Inverse>(
     track: &Track,
     noise: &Noise,
     pieces: &[Piece],
-    Around { neighbours: [before, after], passed }: Around<'_>,
+    [before, after]: [Option<&Neighbour>; 2],
     limits: &Limits,
     displacements: &[Correction],
 ) -> Resolution {
@@ -109,7 +99,7 @@ pub(crate) fn resolve<I: Inverse>(
         let singles = [at_end(before, 0, k == 0), at_end(after, 1, end == pieces.len())];
         let ends = singles.each_ref().map(|single| single.as_ref()?.contact(rod));
         let stretches = (k..end).filter_map(|j| Some((fitted[j].clone()?, pieces[j].label.tip()))).collect::<Vec<_>>();
-        match solve(rod, stretches, ends, noise.is_clean(), passed) {
+        match solve(rod, stretches, ends, noise.is_clean()) {
             Ok(found) => {
                 let spread = displaced(rod, &found, &singles, displacements);
                 for ((part, piece), spread) in found.parts.iter().zip(&pieces[k..end]).zip(&spread) {

@@ -5,7 +5,6 @@ use super::ends::{Beside, End};
 use super::guess::guess;
 use super::misfit::{BY_CHANCE, Misfit};
 use super::part::Part;
-use super::passed::Passed;
 use super::series::Series;
 use super::signs::are_right;
 use super::system::{Solution, System};
@@ -68,7 +67,6 @@ pub(super) fn solve<I: Inverse>(
     stretches: Vec<(Series, bool)>,
     beside: [Option<Beside>; 2],
     clean: bool,
-    passed: &Passed,
 ) -> Result<Resolved, Unresolved> {
     let last = stretches.len() - 1;
     let ends = |k: usize| [beside[0].filter(|_| k == 0), beside[1].filter(|_| k == last)].map(|b| b.map(|b| b.s));
@@ -132,7 +130,7 @@ pub(super) fn solve<I: Inverse>(
         let misfit = Misfit::of(system, &solution);
         let good = solution.converged
             && misfit.deviate() < if clean { MOST_MISFIT_CLEAN } else { BY_CHANCE }
-            && parts.iter().all(|part| are_right(rod, part, &solution) && !passed.contradict(rod, part, &solution));
+            && parts.iter().all(|part| are_right(rod, part, &solution));
         good.then(|| Resolved { parts: parts.to_vec(), solution, ends, tolerance, excess: misfit.excess() })
     };
     for (rank, (choice, short, start)) in middle.iter().enumerate() {

@@ -107,11 +107,6 @@ fn measured(scan: &Scan, sigma: Vector3<f64>, rho: f64, seed: u64) -> (Track, No
     (track, Noise { variance, long_run: Vector3::repeat((1.0 + rho) / (1.0 - rho)) })
 }
 
-fn around<'a>(before: Option<&'a Neighbour>, after: Option<&'a Neighbour>) -> Around<'a> {
-    static NOWHERE: std::sync::LazyLock<Passed> = std::sync::LazyLock::new(Passed::default);
-    Around { neighbours: [before, after], passed: &NOWHERE }
-}
-
 /// Runs of stretches with several contacts, resolved: first sample and answers. With a seed the transitions are wrong
 /// by up to 20 samples.
 fn resolved(scan: &Scan, track: &Track, noise: &Noise, limits: &Limits, seed: u64) -> Vec<(usize, Vec<Pair>)> {
@@ -156,7 +151,7 @@ fn displaced(
         let after = (end < all.len() && !all[end - 1].2 && single(end)).then(|| neighbour(end));
         out.push((
             all[k].0.start,
-            resolve(&Uniform, track, noise, &pieces, around(before.as_ref(), after.as_ref()), limits, by).pairs,
+            resolve(&Uniform, track, noise, &pieces, [before.as_ref(), after.as_ref()], limits, by).pairs,
         ));
         k = end;
     }
@@ -201,7 +196,6 @@ impl Errors {
                         Unresolved::Ambiguous => "ambiguous",
                         Unresolved::NoAnchor => "no anchor",
                         Unresolved::TooNoisy { .. } => "too noisy",
-                        Unresolved::Torn => "torn",
                         Unresolved::Sticks => "sticks",
                         Unresolved::Inconsistent => "inconsistent",
                     };
@@ -320,7 +314,7 @@ fn what_cannot_be_told_is_given_up_with_a_reason() {
     let (track, noise) = measured(&scan, Vector3::zeros(), 0.0, 0);
     let piece = |range, label| Piece { range, label };
     let of = |pieces: &[Piece], track: &Track, noise: &Noise| {
-        resolve(&Uniform, track, noise, pieces, around(None, None), &limits, &[]).pairs
+        resolve(&Uniform, track, noise, pieces, [None, None], &limits, &[]).pairs
     };
     // ten samples
     let short = of(&[piece(1235..1245, Label::BB)], &track, &noise);

@@ -37,9 +37,6 @@ pub enum Unresolved {
         /// Standard deviation across the contour or, where that decided, along it, in lengths of the rod.
         sigma: f64,
     },
-    /// The first contact does not go on in a neighbouring stretch, from which no jump divides it: there may be more than two contacts.
-    #[error("the first contact does not go on in the neighbouring stretch: there may be more than two")]
-    Torn,
     /// The conditions of two contacts contradict each other or the signs of their forces.
     #[error("no two contacts agree with the reactions")]
     Inconsistent,
