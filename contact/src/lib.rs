@@ -43,7 +43,7 @@ pub use error::{ContactError, LARGEST_ANGLE, Obstacle, Stop, StopReason};
 pub use event::{Event, EventKind};
 pub use friction::{Coefficients, Friction};
 pub use inadmissible::Inadmissible;
-pub use path::{Chain, ClampArc, ClampPath, ClampSpline, Path, PathPoint, SuspiciousAngle};
+pub use path::{Chain, ClampArc, ClampPath, ClampSpline, Path, PathPoint};
 pub use phase::Phase;
 pub use rod_core::{ContactRate, Response, SupportRate};
 pub use state::{Certificate, Contact, ContactFriction, ContactKind, GapBounds, RollerContact, SlipMode, State};

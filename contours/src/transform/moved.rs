@@ -49,16 +49,6 @@ impl<C: Contour> Moved<C> {
         Ok(Self { shape, motion, axis: [cos, sin] })
     }
 
-    /// The shape before the motion.
-    pub fn shape(&self) -> &C {
-        &self.shape
-    }
-
-    /// The motion.
-    pub fn motion(&self) -> Motion {
-        self.motion
-    }
-
     /// A range of the shape as one of the moved shape, and the other way round.
     fn mirror_range(&self, range: Range) -> Range {
         if self.motion.mirror { range.backwards() } else { range }
@@ -198,7 +188,7 @@ mod tests {
     #[test]
     fn cuts_and_bounds_are_moved_too() {
         let ellipse = EllipticArc::new([0.0, 0.0], [2.0, 1.0], 0.0, 0.5, 5.0).unwrap();
-        let moved = Moved::new(ellipse, Motion::mirror(0.3)).unwrap();
+        let moved = Moved::new(ellipse, Motion { rotation: 0.6, mirror: true, ..Motion::IDENTITY }).unwrap();
         let expected: Vec<f64> = ellipse.cuts(ellipse.range()).iter().rev().map(|cut| -cut).collect();
         assert_eq!(moved.cuts(moved.range()), expected);
         let line = Moved::new(Line::new([0.0, 0.0], [1.0, 1.0]).unwrap(), Motion::scale(2.0)).unwrap();

@@ -21,7 +21,7 @@ pub use friction::SceneFriction;
 pub use known_rod::{CalibratedRod, read_calibrated_rod, read_uniform_rod, unit_of};
 pub use leg::{Leg, LegPath};
 pub(crate) use numbers::MOST_STATES;
-pub use rod::{FilmedRod, read_filmed_rod, read_rod};
+pub use rod::{FilmedRod, read_filmed_rod};
 
 use crate::SceneError;
 use crate::toml_file::{self, SourceText};

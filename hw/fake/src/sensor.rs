@@ -126,11 +126,6 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
         self.served
     }
 
-    /// The device.
-    pub fn device(&self) -> &D {
-        &self.device
-    }
-
     /// Serves a host until there is a reason to end, or `go_on` says no. Reads and writes of the stream must come back when
     /// there is nothing to do, after about 1 ms. Called again, it goes on with the next frame.
     ///

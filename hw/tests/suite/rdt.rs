@@ -220,7 +220,7 @@ fn a_sensor_that_counts_anew() {
     // its zero is another one now
     let calibration = FakeRdtSettings::default().scaling.calibration::<f64>().unwrap();
     let begin = samples[0].host_time;
-    let mut tare = Tare::single(Zero::known(Wrench::default(), Wrench::default(), begin, begin + 1e-3).unwrap());
+    let mut tare = Tare::single(Zero::known(Wrench::default(), Wrench::default(), begin).unwrap());
     let tared = samples.iter().map(|raw| tare.apply(&calibration.wrench(raw).unwrap()));
     let stale: Vec<bool> = tared.map(|sample| sample.quality.contains(Quality::TARE_STALE)).collect();
     assert_eq!(stale, came(&samples).iter().map(|count| *count >= 51).collect::<Vec<_>>());

@@ -119,11 +119,6 @@ impl<W: Write> Recorder<W> {
         Ok(())
     }
 
-    /// Samples written.
-    pub fn samples(&self) -> u64 {
-        self.samples
-    }
-
     /// Writes what is at the end, perhaps what came over the link, and hands back where it was written to, flushed. Without it
     /// a recording is as readable, but does not tell that it is whole.
     ///
