@@ -30,7 +30,6 @@ mod path;
 mod phase;
 mod scene;
 mod snap;
-mod solve_guess;
 mod stability;
 mod state;
 mod sweep;

@@ -2,9 +2,10 @@
 
 use super::document::{PointValue, SceneDocument, SweepTable};
 use super::numbers::{check_step_count, not, too_large};
-use super::{Scene, files, friction, leg, object, plausible, rod_table};
+use super::{Scene, friction, leg, object, plausible, rod_table};
 use crate::toml_file::{Fault, SourceText};
-use std::path::Path;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use vibrissa::contact::ContactError;
 use vibrissa::{ClampPath, Pose};
@@ -35,7 +36,7 @@ fn scene_of_document(
     directory: &Path,
     unlikely: Vec<Fault>,
 ) -> Result<Scene, Fault> {
-    let files = std::iter::once(source.file().to_path_buf()).chain(files::named_files(&document, directory)).collect();
+    let files = std::iter::once(source.file().to_path_buf()).chain(named_files(&document, directory)).collect();
     let SceneDocument { tables, contour, objects: pieces } = document;
     let rod = rod_table::rod(&tables.rod, tables.clamp.as_ref())?;
     let objects = object::all(&tables, &contour, &pieces, directory)?;
@@ -108,5 +109,34 @@ fn step(table: &Spanned<SweepTable>, path: &ClampPath) -> Result<f64, Fault> {
         }
         (false, None, None) => Err(missing("`step` (m)")),
         (true, None, None) => Err(missing("`step_angle` (degrees)")),
+    }
+}
+
+/// Files of points, drawings and shapes, and those that a file of shapes names in turn. Relative ones are looked for in the
+/// directory of the file that names them.
+fn named_files(document: &SceneDocument, directory: &Path) -> Vec<PathBuf> {
+    let SceneDocument { tables, contour, objects } = document;
+    let pieces = contour.iter().chain(objects.iter().flatten()).filter_map(|piece| piece.file());
+    let mut files: Vec<PathBuf> = pieces.map(|file| directory.join(file)).collect();
+    let tables = tables.contour.iter().chain(&tables.object);
+    for file in tables.filter_map(|table| table.get_ref().file.as_ref()).map(|file| directory.join(file.get_ref())) {
+        let shapes = std::fs::read(&file).ok().and_then(|text| serde_json::from_slice::<Value>(&text).ok());
+        let beside = file.parent().unwrap_or(directory).to_path_buf();
+        if let Some(shapes) = shapes {
+            in_shapes(&shapes, &beside, &mut files);
+        }
+        files.push(file);
+    }
+    files
+}
+
+fn in_shapes(value: &Value, directory: &Path, files: &mut Vec<PathBuf>) {
+    match value {
+        Value::Object(fields) => {
+            files.extend(fields.get("file").and_then(Value::as_str).map(|file| directory.join(file)));
+            fields.values().for_each(|value| in_shapes(value, directory, files));
+        }
+        Value::Array(values) => values.iter().for_each(|value| in_shapes(value, directory, files)),
+        _ => {}
     }
 }

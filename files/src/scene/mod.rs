@@ -6,7 +6,6 @@
 
 mod check;
 mod document;
-mod files;
 mod friction;
 mod known_rod;
 mod leg;

@@ -203,7 +203,6 @@ impl<'a> Stream<'a> {
         self.datagram.records += 1;
         self.datagram.flagged += u64::from(record.status != 0);
         let mut state = self.shared.lock();
-        state.last = record;
         state.account.records += 1;
         state.left = state.left.map(|left| left.saturating_sub(1));
         if state.left == Some(0) {
