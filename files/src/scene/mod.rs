@@ -11,7 +11,6 @@ mod known_rod;
 mod leg;
 mod numbers;
 mod object;
-mod plausible;
 mod rod;
 mod rod_table;
 mod shape;
