@@ -313,6 +313,8 @@ proptest! {
         let twice = Moved::new(Moved::new(boxed, motion).unwrap(), mirror).unwrap();
         check(&twice, &samples)?;
         simple_arcs(&twice, (0.1, 0.9))?;
+        let once = Moved::new(curve, motion.then(mirror)).unwrap();
+        same(once.frame(0.3), twice.frame(0.3))?;
         check(&Reversed::new(arc), &samples)?;
         check(&Trimmed::new(arc, Range { from: range.at(0.2), to: range.at(0.7) }).unwrap(), &samples)?;
         let open = Parabola::new([0.1, 0.2], 3.0).unwrap();

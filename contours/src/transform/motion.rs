@@ -14,6 +14,10 @@ use crate::{ContourError, Point, Vector, check};
 /// let motion = Motion { rotation: FRAC_PI_2, translation: [1.0, 0.0], ..Motion::IDENTITY };
 /// let [x, y] = motion.apply([2.0, 0.0]);
 /// assert!((x - 1.0).abs() < 1e-15 && (y - 2.0).abs() < 1e-15);
+///
+/// // Twice: the second motion is applied to what the first one gives.
+/// let [x, y] = motion.then(motion).apply([2.0, 0.0]);
+/// assert!((x + 1.0).abs() < 1e-15 && (y - 1.0).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
@@ -39,6 +43,17 @@ impl Motion {
     /// The scaling of all lengths from the origin by `factor`, which must be positive.
     pub fn scale(factor: f64) -> Self {
         Self { scale: factor, ..Self::IDENTITY }
+    }
+
+    /// This motion first, then the other.
+    pub fn then(self, other: Self) -> Self {
+        let rotation = if other.mirror { -self.rotation } else { self.rotation };
+        Self {
+            rotation: other.rotation + rotation,
+            translation: other.apply(self.translation),
+            scale: other.scale * self.scale,
+            mirror: other.mirror != self.mirror,
+        }
     }
 
     /// Where the motion takes the point.
@@ -84,13 +99,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn motions_and_back() {
-        for (rotation, translation, scale, mirror) in [(0.3, [1.0, -2.0], 2.0, false), (-1.1, [0.1, 0.7], 0.3, true)] {
-            let motion = Motion { rotation, translation, scale, mirror };
-            let (sin, cos) = rotation.sin_cos();
-            let back = motion.undo_with([cos, sin], motion.apply([0.4, 0.9]));
-            assert!((back[0] - 0.4).hypot(back[1] - 0.9) < 1e-15);
+    fn motions_compose() {
+        let one = Motion { rotation: 0.3, translation: [1.0, -2.0], scale: 2.0, mirror: false };
+        let other = Motion { rotation: -1.1, translation: [0.1, 0.7], scale: 0.3, mirror: true };
+        for (first, second) in [(one, one), (one, other), (other, one), (other, other)] {
+            let point = [0.4, 0.9];
+            let (twice, once) = (second.apply(first.apply(point)), first.then(second).apply(point));
+            assert!((twice[0] - once[0]).hypot(twice[1] - once[1]) < 1e-15);
+            let (sin, cos) = first.rotation.sin_cos();
+            let back = first.undo_with([cos, sin], first.apply(point));
+            assert!((back[0] - point[0]).hypot(back[1] - point[1]) < 1e-15);
         }
+        assert_eq!(one.then(Motion::IDENTITY), one);
+        assert_eq!(Motion::default().then(other), other);
+    }
+
+    #[test]
+    fn a_mirror_keeps_its_line() {
         let [x, y] = Motion { rotation: 0.8, mirror: true, ..Motion::default() }.apply([0.4_f64.cos(), 0.4_f64.sin()]);
         assert!((x - 0.4_f64.cos()).abs() < 1e-15 && (y - 0.4_f64.sin()).abs() < 1e-15);
         assert_eq!(Motion::scale(2.0).apply([1.0, 3.0]), [2.0, 6.0]);
