@@ -73,10 +73,6 @@ pub struct Served {
     pub lost: u64,
     /// Of these, not sent because the host does not read.
     pub overrun: u64,
-    /// Bytes sent.
-    pub sent: u64,
-    /// Bytes heard.
-    pub heard: u64,
 }
 
 /// Why a fake device stopped.
@@ -146,10 +142,7 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
             }
             match stream.read(&mut buffer) {
                 Ok(0) => return Ok(End::Closed),
-                Ok(count) => {
-                    self.served.heard += count as u64;
-                    self.device.hear(buffer.get(..count).unwrap_or_default(), &mut pending);
-                }
+                Ok(count) => self.device.hear(buffer.get(..count).unwrap_or_default(), &mut pending),
                 Err(error) if is_idle(&error) => {}
                 Err(error) => return closed(error),
             }
@@ -225,7 +218,6 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
             }
         };
         pending.drain(..written);
-        self.served.sent += written as u64;
         done
     }
 

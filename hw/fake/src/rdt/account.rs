@@ -28,8 +28,6 @@ pub struct FakeRdtAccount {
     pub malformed: u64,
     /// Records from another sensor.
     pub foreign: u64,
-    /// Times that the samples were counted anew, with or without loss of power.
-    pub restarts: u64,
     /// Requests to start that were answered.
     pub starts: u64,
     /// Requests that got lost: to start, as told, and any without power.

@@ -149,15 +149,11 @@ impl<'a> Stream<'a> {
                 }
             }
             RdtFault::Pause(seconds) => self.pace.delay(seconds),
-            RdtFault::CountAnew => {
-                self.sample = self.first_sample;
-                self.shared.lock().account.restarts += 1;
-            }
+            RdtFault::CountAnew => self.sample = self.first_sample,
             RdtFault::PowerOff(seconds) => {
                 self.flush(client);
                 let mut state = self.shared.lock();
                 (state.client, state.off) = (None, true);
-                state.account.restarts += 1;
                 drop(state);
                 let (since, off) = (Instant::now(), Duration::try_from_secs_f64(seconds).unwrap_or_default());
                 while since.elapsed() < off && !self.stopped() {
