@@ -40,8 +40,7 @@ impl ClampPath {
     /// The path from one pose of the clamp to another (m, m, radians). The angle is followed as given, whole turns
     /// included.
     ///
-    /// Angles are radians. Of an angle beyond two turns, such as 90 given for 90 degrees,
-    /// [`suspicious_angle`](Self::suspicious_angle) tells; one of more than 100 rad is refused.
+    /// Angles are radians. One of more than 100 rad is refused.
     ///
     /// # Errors
     /// [`ContactError::NotFinite`], [`ContactError::Angle`], or [`ContactError::NoPath`] where the two poses are the same.

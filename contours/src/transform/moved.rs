@@ -24,7 +24,7 @@ use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Motion, Ra
 /// let shape = Moved::new(Parabola::new([0.0, 0.0], 5.0)?, Motion::rotation(FRAC_PI_2))?;
 /// assert!((shape.gap(0.2, 0.0) - 0.2).abs() < 1e-15);
 ///
-/// let mirrored = Moved::new(shape, Motion::mirror(FRAC_PI_2))?;
+/// let mirrored = Moved::new(shape, Motion { rotation: 2.0 * FRAC_PI_2, mirror: true, ..Motion::IDENTITY })?;
 /// assert!((mirrored.gap(-0.2, 0.0) - 0.2).abs() < 1e-15);
 /// # Ok::<(), rod_contours::ContourError>(())
 /// ```
