@@ -94,6 +94,11 @@ impl<P: Profile> Framed<P> {
         }
     }
 
+    /// The profile.
+    pub fn profile(&self) -> &P {
+        &self.profile
+    }
+
     /// Bytes of a frame that is not whole yet: the bytes that came are those of good frames, the skipped ones, and these.
     pub fn held(&self) -> usize {
         self.scanner.held()
