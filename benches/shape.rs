@@ -164,7 +164,7 @@ fn main() {
     let hidden = [Defaults::Cuts, Defaults::Convex, Defaults::Closest, Defaults::All];
     let [cuts, convex, closest, all] = hidden.map(|which| object(move |shape| Box::new(Hidden(shape, which))));
     let graphs = object(|shape| {
-        let [x0, y0] = shape.vertex();
+        let Frame { x: x0, y: y0, .. } = shape.frame(0.0);
         let range = shape.range().shifted(x0);
         Box::new(Graph::new(range, move |x| (x - x0) * (x - x0) * COEFFICIENT + y0).unwrap())
     });

@@ -58,7 +58,7 @@ fn halves() -> [(Parabola, [f64; 2]); 2] {
 
 /// n + 1 points on a half, evenly spread along x, and the tangent angles at its ends.
 fn points((half, [from, to]): &(Parabola, [f64; 2]), n: usize) -> (Vec<[f64; 2]>, [f64; 2]) {
-    let at = |k: usize| half.frame(from + (to - from) * k as f64 / n as f64 - half.vertex()[0]);
+    let at = |k: usize| half.frame(from + (to - from) * k as f64 / n as f64 - half.frame(0.0).x);
     let points = (0..=n).map(at).map(|Frame { x, y, .. }| [x, y]).collect();
     (points, [at(0).alpha, at(n).alpha])
 }

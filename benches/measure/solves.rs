@@ -57,7 +57,7 @@ fn unknowns(state: &State, pieces: &[Parabola]) -> (OnParabolas, Vec<f64>) {
             _ => (Hold::Tangent { offset: ((phi - contact.alpha) / PI).round() * PI }, contact.s),
         };
         contacts.push((piece, hold));
-        u.extend([contact.x - piece.vertex()[0], contact.force, third]);
+        u.extend([contact.x - piece.frame(0.0).x, contact.force, third]);
     }
     (OnParabolas { contacts }, u)
 }

@@ -4,7 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use vibrissa::contact::Outcome;
 use vibrissa::contour::SplineEnd;
-use vibrissa::{CircularArc, ClampPath, Composite, Contour, Event, Parabola, Pose, Rod, Spline, State, Sweep};
+use vibrissa::{CircularArc, ClampPath, Composite, Contour, Event, Line, Parabola, Pose, Rod, Spline, State, Sweep};
 
 /// Pieces of the contour that is cut off.
 pub const FEW: usize = 10;
@@ -76,7 +76,7 @@ fn disc(k: usize, of: usize) -> Composite {
 pub fn shapes(kind: Kind, pieces: usize) -> Vec<Box<dyn Contour>> {
     let points = points(pieces);
     match kind {
-        Kind::Edges => Composite::polyline(&points).unwrap().into_pieces(),
+        Kind::Edges => points.windows(2).map(|pair| Box::new(Line::new(pair[0], pair[1]).unwrap()) as _).collect(),
         Kind::Ripples => points.windows(2).map(|pair| ripple([pair[0], pair[1]])).collect(),
         Kind::Cubics if pieces == FEW => {
             let longer = Spline::through(&self::points(100), SplineEnd::Natural).unwrap();

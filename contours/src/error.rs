@@ -220,14 +220,10 @@ pub enum ContourError {
     },
 
     /// Points of a solid polygon in the order of a hole.
-    #[error("the points run clockwise, which would put the solid outside; reverse them, or ask for a cavity")]
-    Clockwise,
-
-    /// Points of a cavity in the order of a solid polygon.
     #[error(
-        "the points of a cavity run counterclockwise, which would put the solid inside; reverse them, or ask for a polygon"
+        "the points run clockwise, which would put the solid outside; reverse them; `reversed` makes a cavity of the polygon"
     )]
-    Counterclockwise,
+    Clockwise,
 
     /// Two consecutive pieces do not meet.
     #[error(

@@ -28,12 +28,6 @@ fn the_objects_of_the_paper() {
         assert_eq!(object.stretch_at(inside.t), 1);
         let below = object.closest(at, crossing.y - 0.05);
         assert!(below.gap > 0.0 && below.gap < 0.05 && object.stretch_at(below.t) != 1);
-        // Both parameters and both frames agree at the crossing.
-        let (piece, t) = object.local(2, stretches[2].range.from).unwrap();
-        assert_eq!(piece, 1);
-        assert!((t - (at - 0.3)).abs() < 1e-15);
-        assert_eq!(object.local(0, 0.05), Some((0, 0.05)));
-        assert_eq!(object.local(1, stretches[1].range.from), None);
     }
 }
 
@@ -154,16 +148,14 @@ fn a_part_of_a_composite_ends_where_it_is_cut() {
 }
 
 #[test]
-fn a_clone_is_the_same_contour_and_can_be_taken_apart() {
+fn a_clone_is_the_same_contour() {
     let bump = |x| Box::new(Parabola::new([x, 0.0], 5.0).unwrap()) as Box<dyn Contour>;
     let contour = Composite::joined(vec![bump(0.0), bump(0.3)]).unwrap();
     let motion = Motion { rotation: 0.4, mirror: true, ..Motion::default() };
     let moved = contour.clone().moved(motion).unwrap();
-    let again = Composite::new(contour.clone().into_pieces()).unwrap();
     let alone = contour.moved(motion).unwrap();
     for k in -20..20 {
         let (x, y) = (0.03 * f64::from(k), -0.1);
         assert_eq!(moved.closest(x, y), alone.closest(x, y));
     }
-    assert_eq!(again.stretches().len(), alone.stretches().len());
 }

@@ -111,7 +111,8 @@ fn mistakes_are_named_by_their_line() {
         let shape = Ellipse(mistake);
         assert_eq!(line_of(Composite::single(shape).unwrap_err()), (1, line), "{mistake:?}");
         // Wrapped in shapes of the crate it is no better.
-        let moved = Moved::new(Box::new(shape) as Box<dyn Contour>, Motion::mirror(0.3)).unwrap();
+        let mirror = Motion { rotation: 0.6, mirror: true, ..Motion::IDENTITY };
+        let moved = Moved::new(Box::new(shape) as Box<dyn Contour>, mirror).unwrap();
         let error = Composite::joined(vec![Box::new(Line::new([0.0, 0.0], [1.0, 0.0]).unwrap()), Box::new(moved)]);
         assert_eq!(line_of(error.unwrap_err()), (2, line), "{mistake:?}");
     }

@@ -17,7 +17,6 @@ fn a_spline_survives_its_file() {
         let text = serde_json::to_string(&spline).unwrap();
         let copy: Spline = serde_json::from_str(&text).unwrap();
         assert_eq!(serde_json::to_string(&copy).unwrap(), text);
-        assert_eq!(copy.length().to_bits(), spline.length().to_bits());
         for k in -10..=1010 {
             let t = spline.range().at(f64::from(k) / 1000.0);
             assert_eq!(copy.frame(t), spline.frame(t));
@@ -41,9 +40,9 @@ fn unsound_keys_are_refused() {
     let last = key("3.0", 3.0, [2.0, 0.0], [4.0, 0.0]);
     let message = |keys: &[&str]| {
         let read: Result<Spline, _> = serde_json::from_str(&format!("[{}]", keys.join(",")));
-        read.map_or_else(|error| error.to_string(), |spline| format!("fine, length {}", spline.length()))
+        read.map_or_else(|error| error.to_string(), |spline| format!("fine, to {}", spline.range().to))
     };
-    assert_eq!(message(&[&first, &last]), "fine, length 3");
+    assert_eq!(message(&[&first, &last]), "fine, to 3");
     assert_eq!(message(&[]), "a spline needs at least 2 points, got 0");
     assert_eq!(message(&[&first]), "a spline needs at least 2 points, got 1");
     assert_eq!(

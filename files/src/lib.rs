@@ -44,7 +44,7 @@ pub use reconstructed::{
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{
-    CalibratedRod, FilmedRod, Leg, LegPath, Scene, SceneFriction, read_calibrated_rod, read_filmed_rod, read_rod,
+    CalibratedRod, FilmedRod, Leg, LegPath, Scene, SceneFriction, read_calibrated_rod, read_filmed_rod,
     read_uniform_rod, unit_of,
 };
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};

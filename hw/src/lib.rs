@@ -3,7 +3,7 @@
 //! - [`sample`]: the data. [`RawSample`] has the counts or volts of a device, with its time, sequence number and status word;
 //!   [`WrenchSample`] force and torque at the sensor's origin; [`ReactionSample`] pose and reactions of the clamp. All of them have
 //!   [`Quality`] flags. A source is any iterator of results of them.
-//! - [`geometry`]: the [`Mounting`] of the sensor at the clamp, by a [`Frame`]; `fit_lever_arm` finds its lever arm from weights.
+//! - [`geometry`]: the [`Mounting`] of the sensor at the clamp, by a [`Frame`].
 //! - [`calibrate`]: a [`Calibration`] converts raw values to a wrench: a [`Scale`] of counts, a [`GaugeMatrix`], a closure, and with
 //!   the feature `cal` a file of ATI (`AtiFile`). A [`TareWindow`] gives the zero of a [`Tare`]. [`Accuracy`] and [`RatedLoad`]
 //!   describe a sensor; [`SensorCheck`] compares it with a rod.
@@ -46,8 +46,6 @@ pub use chain::{
 #[cfg(feature = "std")]
 pub use device::SerialProfile;
 pub use geometry::{Axis, Frame, GeometryError, Mounting, Sense};
-#[cfg(feature = "std")]
-pub use geometry::{LeverArm, fit_lever_arm};
 #[cfg(feature = "serial")]
 pub use link::SerialPort;
 #[cfg(feature = "rdt")]

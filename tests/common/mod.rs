@@ -6,6 +6,7 @@ pub mod bumps;
 pub mod exact;
 pub mod golden;
 pub mod judge;
+pub mod numbers;
 
 use bumps::Bumps;
 use vibrissa::contact::{Item, Outcome};

@@ -1,31 +1,12 @@
 //! Random scenes with friction: discs, polygons and parabolas, and clamps that go forth and back, turn and dither, judged by [`Judge`].
 
 use super::judge::{Counts, Judge, Shape};
+use crate::common::numbers::Numbers;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use vibrissa::contact::{Chain, EventKind, Item, Path, Stop};
 use vibrissa::contour::{Jet, Range};
 use vibrissa::rod::Pose;
 use vibrissa::{CircularArc, Composite, Graph, Parabola, Rod, Sweep};
-
-/// A sequence of numbers that is the same on every machine (splitmix64; Steele, Lea and Flood 2014).
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn within(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn below(&mut self, count: u64) -> u64 {
-        self.next() % count
-    }
-}
 
 struct Scene {
     shapes: Vec<Shape>,

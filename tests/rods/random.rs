@@ -1,5 +1,6 @@
 //! Random rods past random discs, judged by an integrator of its own: DOP853 along E I(s) and kappa0(s), written down here once more.
 
+use crate::common::numbers::Numbers;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use vibrissa::contact::{ContactKind, RollerContact};
 use vibrissa::rod::{Cut, ElasticClamp, Guided, Method, Mounted, Ode, Pose, Propagator, RodSection, VaryingRod};
@@ -9,22 +10,6 @@ use vibrissa::{CircularArc, ClampPath, Composite, Rod, State, Sweep};
 const SAMPLES: usize = 60;
 /// What may be off (L, rad), relative to 1 + the largest curvature: the integrator's tolerance is 1e-12 a step.
 const ERROR: f64 = 1e-8;
-
-/// A sequence of numbers that is the same on every machine (splitmix64; Steele, Lea and Flood 2014).
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn within(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 type Function = Box<dyn Fn(f64) -> f64>;
 

@@ -1,7 +1,8 @@
 //! From reactions and the force of a roller back to the contact, and the check that the fourth reading is.
 
 use super::scans::{cone, o1};
-use std::f64::consts::{FRAC_PI_2, TAU};
+use crate::common::numbers::Numbers;
+use std::f64::consts::FRAC_PI_2;
 use vibrissa::reconstruct::nalgebra::{Matrix3, Matrix4, Vector4};
 use vibrissa::reconstruct::{
     Budget, OneSample, Settings, beyond_roller, one_sample, reconstruct_passes, through_roller,
@@ -25,23 +26,6 @@ fn states(rod: &impl PhysicalRod, step: f64) -> Vec<State> {
 
 fn force(state: &State) -> f64 {
     state.roller.as_ref().unwrap().force
-}
-
-/// Normally distributed numbers (splitmix64, Box and Muller).
-struct Dice(u64);
-
-impl Dice {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        let (radius, turn) = ((-2.0 * (1.0 - self.uniform()).ln()).sqrt(), TAU * self.uniform());
-        radius * turn.cos()
-    }
 }
 
 /// What one sample of exact readings tells, by a rod whose stiffness is given too large.
@@ -108,7 +92,7 @@ fn noisy_readings_are_off_by_their_standard_deviations() {
     let rod = Guided::new(uniform(), 0.2).unwrap();
     let covariance = Matrix4::from_diagonal(&Vector4::from(NOISE.map(|sigma| sigma * sigma)));
     // without a roller to tell of: the same, with a moment that is trusted as little as not at all
-    let mut dice = Dice(1);
+    let mut dice = Numbers(1);
     let states: Vec<State> = states(&rod, 0.01).into_iter().filter(|state| state.contacts.len() == 1).collect();
     let (mut points, mut misses, mut gains, mut stiffness) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut told, mut alone) = (Vec::new(), Vec::new());

@@ -1,5 +1,6 @@
 //! Random scenes with and without friction, and the same scene in another frame: turned, shifted, mirrored, scaled, its path cut in legs.
 
+use crate::common::numbers::Numbers;
 use std::f64::consts::{PI, TAU};
 use vibrissa::contact::{Chain, Coefficients, Item, Stop};
 use vibrissa::contour::SplineEnd;
@@ -7,30 +8,6 @@ use vibrissa::rod::{ElasticClamp, Mounted, NaturalCurvature, PhysicalRod, Pose, 
 use vibrissa::{CircularArc, Composite, EllipticArc, Line, Rod, Spline, Sweep};
 
 pub type Point = [f64; 2];
-
-/// A sequence of numbers that is the same on every machine (splitmix64; Steele, Lea and Flood 2014).
-pub struct Numbers(u64);
-
-impl Numbers {
-    pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x2545_f491_4f6c_dd1d))
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    pub fn within(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub fn below(&mut self, count: u64) -> u64 {
-        self.next() % count
-    }
-}
 
 /// A piece of an object, angles in radians.
 #[derive(Clone, Debug)]
@@ -351,7 +328,7 @@ fn object(numbers: &mut Numbers, kind: &str, centre: Point, radius: f64) -> Vec<
 
 /// The scene of a seed, for ever the same.
 pub fn scene(seed: u64) -> Scene {
-    let mut n = Numbers::new(seed);
+    let mut n = Numbers(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
     let bend = |n: &mut Numbers| [n.within(-1.8, 1.8), n.within(-1.8, 1.8)];
     let (name, material) = match n.below(4) {
         0 => ("uniform", Material::Uniform),

@@ -1,6 +1,6 @@
 //! A study of the accuracy that a scene allows.
 
-use super::error::BudgetError;
+use super::BudgetError;
 use super::forecast::Forecast;
 use super::needed::Needed;
 use super::trials::{Trial, Trials};

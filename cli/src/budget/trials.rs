@@ -1,6 +1,6 @@
 //! Recordings with random errors, reconstructed.
 
-use super::error::BudgetError;
+use super::BudgetError;
 use super::forecast::median;
 use super::truth::PerfectSensor;
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! The true samples of a scene.
 
-use super::error::BudgetError;
+use super::BudgetError;
 use rod_files::{Scene, Simulation};
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{NoiseError, NoiseModel};

@@ -122,7 +122,6 @@ impl FakeScan {
             torque_unit: unit("N mm", Dimension::Torque, 1e-3),
             counts_per_force: COUNTS,
             counts_per_torque: COUNTS,
-            scale: [1; 6],
         };
         let told = match &setup.calibration {
             None => None,

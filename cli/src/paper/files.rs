@@ -1,6 +1,6 @@
 //! The files of the nine scans: states, figures and paper.json.
 
-use super::error::PaperError;
+use super::PaperError;
 use super::figures::{contact_points, criterion, cycles, distances, goodness, notches, transitions};
 use super::naive::Naive;
 use super::resolved::ResolvedScan;

@@ -1,6 +1,6 @@
 //! A scan turned back into contact points as if there were never more than one contact (Merker et al. 2020, fig. 6).
 
-use super::error::PaperError;
+use super::PaperError;
 use super::scans::PaperScan;
 use rod_files::Scan;
 use rod_files::naive_touch;

@@ -1,6 +1,6 @@
 //! A scan turned back into contact points with what the reactions tell of the contact phases.
 
-use super::error::PaperError;
+use super::PaperError;
 use super::scans::PaperScan;
 use rod_files::naive_touch;
 use vibrissa::contour::StretchKind;

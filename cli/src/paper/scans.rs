@@ -1,6 +1,6 @@
 //! The nine scans of the paper: their scenes, and running them.
 
-use super::error::PaperError;
+use super::PaperError;
 use rayon::prelude::*;
 use rod_files::{Interrupt, Scan, Scene};
 use std::path::Path;

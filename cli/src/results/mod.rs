@@ -1,12 +1,8 @@
 //! The files of results with their figures.
 
-mod profile;
-
-pub use profile::write_profiles;
-
 use crate::figure::{self, FigureError};
-use rod_files::{FilmForces, OutputError, Reconstructed, Scan, Staged};
-use std::path::Path;
+use rod_files::{FilmForces, OutputError, Profile, Reconstructed, Scan, Staged, write_profile_table};
+use std::path::{Path, PathBuf};
 
 /// Why results cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -62,4 +58,27 @@ pub fn write_film(found: &FilmForces, staged: &Staged) -> Result<(), WriteError>
         staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
     }
     Ok(())
+}
+
+/// Writes the points of contours to the CSV file `out`, and a drawing of them beside it, with the extension svg, whose
+/// name is returned. Neither appears before both are complete, and neither replaces one of the `inputs`.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write_profiles(
+    name: &str,
+    profiles: &[Profile],
+    out: &Path,
+    inputs: Vec<PathBuf>,
+) -> Result<PathBuf, WriteError> {
+    if out.file_name().is_none_or(|file| Path::new(file).extension().is_some_and(|is| is == "svg")) {
+        return Err(OutputError::Name { file: out.to_path_buf() }.into());
+    }
+    let figure = figure::profile(name, profiles)?;
+    let (staged, file) = Staged::of_file(out)?;
+    let staged = staged.keeping(inputs);
+    staged.write(file, |out| write_profile_table(profiles, out))?;
+    staged.write(&file.with_extension("svg"), |out| out.write_all(figure.as_bytes()))?;
+    staged.publish()?;
+    Ok(out.with_extension("svg"))
 }

@@ -393,7 +393,7 @@ mod tests {
     fn a_side_touches_where_the_straight_rod_is_tangential() {
         // the solid is left of x = -0.2 - (y - 0.6)^2
         let wall = Parabola::new([0.0, 0.0], 1.0).unwrap();
-        let motion = Motion::rotation(FRAC_PI_2).then(Motion::translation([-0.2, 0.6]));
+        let motion = Motion { rotation: FRAC_PI_2, translation: [-0.2, 0.6], ..Motion::IDENTITY };
         let wall = Composite::single(Moved::new(wall, motion).unwrap()).unwrap();
         let Transition { kind, after, .. } = first_transition_at(&wall, 1.23);
         assert_eq!(kind, EventKind::FirstContact);

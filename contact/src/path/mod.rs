@@ -8,8 +8,8 @@ mod straight;
 pub use arc::ClampArc;
 pub use chain::Chain;
 pub use spline::ClampSpline;
+pub use straight::ClampPath;
 pub(crate) use straight::check;
-pub use straight::{ClampPath, SuspiciousAngle};
 
 use rod_core::Pose;
 use std::sync::Arc;

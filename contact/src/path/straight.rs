@@ -3,21 +3,6 @@
 use super::{Path, PathPoint};
 use crate::error::{ContactError, LARGEST_ANGLE};
 use rod_core::{Pose, Units};
-use std::f64::consts::PI;
-
-/// Clamp angle, rad, beyond which degrees may have been given for radians: two turns, more than a scan needs and less than
-/// 15 degrees taken for radians. A smaller one would warn of clamps that do turn around.
-const SUSPICIOUS_ANGLE: f64 = 4.0 * PI;
-
-/// An angle of the clamp that may be in degrees where radians are expected. It displays as a warning.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{what} is {value:.4} rad, more than two turns; if {value:.4} degrees are meant, that is {:.4} rad", value.to_radians())]
-pub struct SuspiciousAngle {
-    /// Which angle: `from.phi` or `to.phi`.
-    pub what: &'static str,
-    /// Its value as given, rad.
-    pub value: f64,
-}
 
 /// The error for a pose with a number that cannot be; `names` are those of its x, y and angle.
 pub(crate) fn check(pose: Pose, names: [&'static str; 3]) -> Result<(), ContactError> {
@@ -55,8 +40,7 @@ impl ClampPath {
     /// The path from one pose of the clamp to another (m, m, radians). The angle is followed as given, whole turns
     /// included.
     ///
-    /// Angles are radians. Of an angle beyond two turns, such as 90 given for 90 degrees,
-    /// [`suspicious_angle`](Self::suspicious_angle) tells; one of more than 100 rad is refused.
+    /// Angles are radians. One of more than 100 rad is refused.
     ///
     /// # Errors
     /// [`ContactError::NotFinite`], [`ContactError::Angle`], or [`ContactError::NoPath`] where the two poses are the same.
@@ -66,21 +50,6 @@ impl ClampPath {
         let way = (to.x - from.x).hypot(to.y - from.y);
         let length = if way > 0.0 { way } else { (to.phi - from.phi).abs() };
         if length > 0.0 { Ok(Self { from, to, length }) } else { Err(ContactError::NoPath { pose: from }) }
-    }
-
-    /// The first angle of the path that is larger than two turns (4 pi), which may be degrees given for radians.
-    ///
-    /// ```
-    /// use rod_contact::ClampPath;
-    /// use rod_core::Pose;
-    /// let path = ClampPath::new(Pose { x: 0.0, y: 0.0, phi: 90.0 }, Pose { x: 0.1, y: 0.0, phi: 90.0 })?;
-    /// assert_eq!(path.suspicious_angle().map(|angle| (angle.what, angle.value)), Some(("from.phi", 90.0)));
-    /// # Ok::<(), rod_contact::ContactError>(())
-    /// ```
-    pub fn suspicious_angle(&self) -> Option<SuspiciousAngle> {
-        let angles = [("from.phi", self.from.phi), ("to.phi", self.to.phi)];
-        let suspicious = angles.into_iter().find(|(_, value)| value.abs() > SUSPICIOUS_ANGLE);
-        suspicious.map(|(what, value)| SuspiciousAngle { what, value })
     }
 
     /// Length of the path: m, or radians where the clamp only turns.
@@ -177,15 +146,5 @@ mod tests {
         assert_eq!(error, "to.phi is -100.5 rad, expected at most 100 rad either way");
         assert!(path(100.0, -100.0).is_ok());
         assert!(matches!(path(f64::INFINITY, 0.0), Err(ContactError::NotFinite { what: "from.phi", .. })));
-    }
-
-    #[test]
-    fn degrees_given_for_radians_show() {
-        let suspicious = path(1.5, 90.0).unwrap().suspicious_angle().unwrap();
-        assert_eq!(
-            suspicious.to_string(),
-            "to.phi is 90.0000 rad, more than two turns; if 90.0000 degrees are meant, that is 1.5708 rad"
-        );
-        assert_eq!(path(4.0 * PI, -4.0 * PI).unwrap().suspicious_angle(), None);
     }
 }

@@ -192,15 +192,6 @@ impl Composite {
         Closest { t: self.common_parameter(stretch, closest.t), ..closest }
     }
 
-    /// Index of the piece and its own parameter at the composite's parameter `t` on one stretch; none on a joint.
-    pub fn local(&self, stretch: usize, t: f64) -> Option<(usize, f64)> {
-        if stretch >= self.order.len() {
-            return None;
-        }
-        let (piece, joint) = self.piece_of(stretch);
-        (!joint).then(|| (piece, t - self.pieces[piece].offset))
-    }
-
     /// The range of one stretch in its own parameter, free of the rounding that an offset brings: that of the piece's
     /// shape, or the angle turned at a joint, from 0.
     pub fn own_range(&self, stretch: usize) -> Range {
@@ -297,14 +288,6 @@ impl Composite {
         match self.piece_or_joint(stretch) {
             PieceOrJoint::Piece(piece) => piece.shape.curvature_in(range),
             PieceOrJoint::Joint(joint) => joint.curvature(),
-        }
-    }
-
-    /// Whether the closest points of a stretch [are exact](Contour::closest_is_exact); those of joints are.
-    pub fn own_closest_is_exact(&self, stretch: usize) -> bool {
-        match self.piece_or_joint(stretch) {
-            PieceOrJoint::Piece(piece) => piece.shape.closest_is_exact(),
-            PieceOrJoint::Joint(_) => true,
         }
     }
 

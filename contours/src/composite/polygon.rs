@@ -46,25 +46,6 @@ impl Composite {
         check_area(points)?;
         if polygon.is_cavity() { Err(ContourError::Clockwise) } else { Ok(polygon) }
     }
-
-    /// The same for a hole: the points run clockwise, and the solid is outside.
-    ///
-    /// ```
-    /// use rod_contours::{Composite, Contour};
-    ///
-    /// let hole = Composite::cavity(&[[0.0, 0.0], [0.0, 2.0], [2.0, 2.0], [2.0, 0.0]])?;
-    /// assert!(hole.is_cavity() && hole.gap(1.0, 0.5) == 0.5);
-    /// # Ok::<(), rod_contours::ContourError>(())
-    /// ```
-    ///
-    /// # Errors
-    ///
-    /// Those of [`polygon`](Self::polygon), with [`ContourError::Counterclockwise`] for the other direction.
-    pub fn cavity(points: &[Point]) -> Result<Self, ContourError> {
-        let cavity = composite_of_edges(edges(points, true)?)?;
-        check_area(points)?;
-        if cavity.is_cavity() { Ok(cavity) } else { Err(ContourError::Counterclockwise) }
-    }
 }
 
 /// Checks that the edges of a closed polygon enclose an area larger than rounding.
@@ -128,7 +109,6 @@ mod tests {
         for tilt in [0.0, 0.3] {
             let line = [0.0, 0.4, 1.0, 0.7].map(|x: f64| [x, tilt * x]);
             assert!(matches!(Composite::polygon(&line), Err(ContourError::NoArea { .. })), "{tilt}");
-            assert!(matches!(Composite::cavity(&line), Err(ContourError::NoArea { .. })), "{tilt}");
         }
         assert!(Composite::polygon(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1e-12]]).is_ok());
     }
@@ -171,19 +151,7 @@ mod tests {
         let clockwise: Vec<Point> = SQUARE.into_iter().rev().collect();
         assert_eq!(
             message(Composite::polygon(&clockwise)),
-            "the points run clockwise, which would put the solid outside; reverse them, or ask for a cavity"
+            "the points run clockwise, which would put the solid outside; reverse them; `reversed` makes a cavity of the polygon"
         );
-        assert!(Composite::cavity(&clockwise).unwrap().is_cavity());
-        assert_eq!(
-            message(Composite::cavity(&SQUARE)),
-            "the points of a cavity run counterclockwise, which would put the solid inside; reverse them, or ask for a polygon"
-        );
-        let bow_tie = [SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]];
-        let expected = "edge 1 crosses edge 3 at (0.5, 0.5), expected a contour that does not cross itself; put the points in the order in which they are passed";
-        assert_eq!(message(Composite::polygon(&bow_tie)), expected);
-        assert_eq!(message(Composite::polyline(&bow_tie)), expected);
-        // Through a corner.
-        let through = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.0], [1.0, -1.0]];
-        assert!(message(Composite::polyline(&through)).starts_with("edge 1 crosses edge 3 at (1, 0)"));
     }
 }

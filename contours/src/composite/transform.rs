@@ -1,7 +1,7 @@
 //! A whole contour moved, reversed, or given back in pieces.
 
 use super::piece::Piece;
-use crate::{Composite, Contour, ContourError, Motion, Moved, Reversed, Trimmed};
+use crate::{Composite, ContourError, Motion, Moved, Reversed};
 
 impl Composite {
     /// The contour after a motion: every piece [`Moved`], the joints between them as they were.
@@ -68,31 +68,6 @@ impl Composite {
         set_joints(&mut pieces, &joints_backwards(joints));
         Self::from_placed_pieces(pieces, -turns)
     }
-
-    /// The pieces in order, each trimmed to its part of the contour; [`new`](Self::new) puts them together again.
-    ///
-    /// ```
-    /// use rod_contours::{Composite, Parabola};
-    ///
-    /// let bump = |x| Parabola::new([x, 0.0], 5.0).map(|bump| Box::new(bump) as _);
-    /// let pieces = Composite::joined(vec![bump(0.0)?, bump(0.3)?])?.into_pieces();
-    /// assert!((pieces[0].range().to - 0.15).abs() < 1e-15);
-    /// assert_eq!(Composite::new(pieces)?.stretches().len(), 3);
-    /// # Ok::<(), rod_contours::ContourError>(())
-    /// ```
-    pub fn into_pieces(self) -> Vec<Box<dyn Contour>> {
-        let (pieces, _) = self.into_placed_pieces();
-        pieces
-            .into_iter()
-            .map(|piece| {
-                if piece.range == piece.shape.range() {
-                    piece.shape
-                } else {
-                    Box::new(Trimmed::of_part(piece.shape, piece.range))
-                }
-            })
-            .collect()
-    }
 }
 
 /// The turns after each piece, seen the other way: the last one is that of the closed contour's end either way.
@@ -113,7 +88,7 @@ fn set_joints(pieces: &mut [Piece], joints: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{CircularArc, Line, Parabola, StretchKind, contract};
+    use crate::{CircularArc, Contour, Line, Parabola, StretchKind, contract};
 
     /// A shape with a corner, a notch, a smooth joint and a corner where it closes.
     fn closed() -> Composite {
@@ -174,7 +149,8 @@ mod tests {
             let pieces = [0.0, 0.3].map(|x| Box::new(Parabola::new([x, 0.0], 5.0).unwrap()) as Box<dyn Contour>);
             Composite::joined(pieces.into()).unwrap()
         };
-        let mirrored = bumps().moved(Motion::mirror(std::f64::consts::FRAC_PI_2)).unwrap();
+        let mirrored =
+            bumps().moved(Motion { rotation: std::f64::consts::PI, mirror: true, ..Motion::IDENTITY }).unwrap();
         assert_eq!(kinds(&mirrored), kinds(&bumps()));
         assert!((mirrored.gap(-0.3, -0.2) - 0.2).abs() < 1e-15);
         let below = bumps().reversed();

@@ -86,11 +86,6 @@ impl Bezier {
         Self::new([first, towards(first), towards(last), last])
     }
 
-    /// The control points, lengths.
-    pub fn control(&self) -> [Point; 4] {
-        self.control
-    }
-
     fn cubic(&self) -> Cubic {
         Cubic::unit(self.control)
     }

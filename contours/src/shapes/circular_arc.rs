@@ -62,16 +62,6 @@ impl CircularArc {
         Ok(Self { center, radius, span: Span::new("the arc", from_angle, to_angle)? })
     }
 
-    /// The centre, lengths.
-    pub fn center(&self) -> Point {
-        self.center
-    }
-
-    /// The radius, a length.
-    pub fn radius(&self) -> f64 {
-        self.radius
-    }
-
     /// A range of arc length as the angle travelled.
     fn angles(&self, range: Range) -> Range {
         Range { from: range.from / self.radius, to: range.to / self.radius }

@@ -80,21 +80,6 @@ impl EllipticArc {
         Ok(Self { center, radii, rotation, axis: [cos, sin], span })
     }
 
-    /// The centre, lengths.
-    pub fn center(&self) -> Point {
-        self.center
-    }
-
-    /// The radii along the ellipse's own axes, lengths.
-    pub fn radii(&self) -> [f64; 2] {
-        self.radii
-    }
-
-    /// The angle of the first axis, rad.
-    pub fn rotation(&self) -> f64 {
-        self.rotation
-    }
-
     /// The point in coordinates along the axes, from the centre.
     fn inward(&self, x: f64, y: f64) -> Vector {
         let [cos, sin] = self.axis;

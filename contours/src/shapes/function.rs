@@ -52,6 +52,38 @@ pub(crate) fn check_limits(
     Ok(known)
 }
 
+/// The methods of [`Contour`] that a shape made of a function has from it.
+macro_rules! methods_of_function {
+    () => {
+        fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
+            function::closest_in(self, range, x, y)
+        }
+
+        fn bounds_in(&self, range: Range) -> Bounds {
+            function::bounds_in(self, range)
+        }
+
+        fn cuts(&self, range: Range) -> Vec<f64> {
+            function::cuts(self, range)
+        }
+
+        /// Where the limits show that it bends one way only.
+        fn is_convex(&self, range: Range) -> bool {
+            function::is_convex(self, range)
+        }
+
+        fn curvature_in(&self, range: Range) -> (f64, f64) {
+            function::curvature_in(self, range)
+        }
+
+        /// With limits.
+        fn closest_is_exact(&self) -> bool {
+            self.limits.is_some()
+        }
+    };
+}
+pub(crate) use methods_of_function;
+
 pub(crate) fn closest_in(shape: &impl Function, range: Range, x: f64, y: f64) -> Closest {
     if let Some(limits) = shape.limits() {
         let range = shape.range().within(range);

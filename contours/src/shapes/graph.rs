@@ -129,31 +129,7 @@ impl Contour for Graph {
         self.range
     }
 
-    fn closest_in(&self, range: Range, x: f64, y: f64) -> Closest {
-        function::closest_in(self, range, x, y)
-    }
-
-    fn bounds_in(&self, range: Range) -> Bounds {
-        function::bounds_in(self, range)
-    }
-
-    fn cuts(&self, range: Range) -> Vec<f64> {
-        function::cuts(self, range)
-    }
-
-    /// Where the limits show that it bends one way only.
-    fn is_convex(&self, range: Range) -> bool {
-        function::is_convex(self, range)
-    }
-
-    fn curvature_in(&self, range: Range) -> (f64, f64) {
-        function::curvature_in(self, range)
-    }
-
-    /// With limits.
-    fn closest_is_exact(&self) -> bool {
-        self.limits.is_some()
-    }
+    function::methods_of_function!();
 
     fn trust(&self, _: Seal) -> Trust {
         Trust { contract: false, simple: true }

@@ -56,16 +56,6 @@ impl Line {
         Ok(line)
     }
 
-    /// The first point, lengths.
-    pub fn from(&self) -> Point {
-        self.from
-    }
-
-    /// The second point, lengths.
-    pub fn to(&self) -> Point {
-        self.to
-    }
-
     /// Length and direction.
     fn length_and_direction(&self) -> (f64, Vector) {
         let (dx, dy) = (self.to[0] - self.from[0], self.to[1] - self.from[1]);

@@ -77,16 +77,6 @@ impl Parabola {
         }
     }
 
-    /// The vertex, lengths.
-    pub fn vertex(&self) -> Point {
-        self.vertex
-    }
-
-    /// The coefficient of the square, one over a length: half the curvature at the vertex.
-    pub fn coefficient(&self) -> f64 {
-        self.coefficient
-    }
-
     /// The height above the vertex at `t`; 0 on a straight line even at infinity.
     fn height(&self, t: f64) -> f64 {
         if self.coefficient == 0.0 { 0.0 } else { self.coefficient * t * t }

@@ -24,7 +24,7 @@ use crate::{Bounds, Closest, Contour, ContourError, Frame, FrameRate, Motion, Ra
 /// let shape = Moved::new(Parabola::new([0.0, 0.0], 5.0)?, Motion::rotation(FRAC_PI_2))?;
 /// assert!((shape.gap(0.2, 0.0) - 0.2).abs() < 1e-15);
 ///
-/// let mirrored = Moved::new(shape, Motion::mirror(FRAC_PI_2))?;
+/// let mirrored = Moved::new(shape, Motion { rotation: 2.0 * FRAC_PI_2, mirror: true, ..Motion::IDENTITY })?;
 /// assert!((mirrored.gap(-0.2, 0.0) - 0.2).abs() < 1e-15);
 /// # Ok::<(), rod_contours::ContourError>(())
 /// ```
@@ -47,16 +47,6 @@ impl<C: Contour> Moved<C> {
         let motion = motion.check()?;
         let (sin, cos) = motion.rotation.sin_cos();
         Ok(Self { shape, motion, axis: [cos, sin] })
-    }
-
-    /// The shape before the motion.
-    pub fn shape(&self) -> &C {
-        &self.shape
-    }
-
-    /// The motion.
-    pub fn motion(&self) -> Motion {
-        self.motion
     }
 
     /// A range of the shape as one of the moved shape, and the other way round.
@@ -198,7 +188,7 @@ mod tests {
     #[test]
     fn cuts_and_bounds_are_moved_too() {
         let ellipse = EllipticArc::new([0.0, 0.0], [2.0, 1.0], 0.0, 0.5, 5.0).unwrap();
-        let moved = Moved::new(ellipse, Motion::mirror(0.3)).unwrap();
+        let moved = Moved::new(ellipse, Motion { rotation: 0.6, mirror: true, ..Motion::IDENTITY }).unwrap();
         let expected: Vec<f64> = ellipse.cuts(ellipse.range()).iter().rev().map(|cut| -cut).collect();
         assert_eq!(moved.cuts(moved.range()), expected);
         let line = Moved::new(Line::new([0.0, 0.0], [1.0, 1.0]).unwrap(), Motion::scale(2.0)).unwrap();

@@ -27,11 +27,6 @@ impl<C: Contour> Reversed<C> {
         Self { shape }
     }
 
-    /// The shape as it was.
-    pub fn shape(&self) -> &C {
-        &self.shape
-    }
-
     /// The closest point seen from the other side.
     fn reverse_closest(closest: Closest, x: f64, y: f64) -> Closest {
         // What is straight ahead of an end is outside either way.

@@ -36,16 +36,6 @@ impl<C: Contour> Trimmed<C> {
         }
         Ok(Self { shape, range })
     }
-
-    /// The part in a range that is known to be one of the shape's.
-    pub(crate) fn of_part(shape: C, range: Range) -> Self {
-        Self { shape, range }
-    }
-
-    /// The whole shape.
-    pub fn shape(&self) -> &C {
-        &self.shape
-    }
 }
 
 impl<C: Contour> Contour for Trimmed<C> {

@@ -1,11 +1,9 @@
 //! Films of a rod: points on it, frame by frame, and measured numbers at its base, from tables to files of forces.
 
-mod at_rest;
 mod channels;
 mod error;
 mod options;
 mod points;
-mod pole_record;
 mod record;
 mod result;
 mod sensor;

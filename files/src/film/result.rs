@@ -1,12 +1,10 @@
 //! Forces from a film.
 
-use super::at_rest::at_rest;
 use super::channels::channels;
 use super::error::{AtRestError, FilmError};
 use super::options::{Ends, FilmOptions};
 use super::points::{self, points};
-use super::pole_record::PoleRecord;
-use super::record::{COLUMNS, CONTACT_COLUMNS, FrameRecord, RestRecord};
+use super::record::{COLUMNS, CONTACT_COLUMNS, FrameRecord, PoleRecord, RestRecord};
 use super::table::Numbers;
 use crate::output::{json_line, pretty_json, write_csv};
 use crate::{FilmedRod, OutputError, Staged};
@@ -14,7 +12,8 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 use vibrissa::hw::{Frame as Axes, Mounting};
-use vibrissa::reconstruct::{Channel, Film, ForceSettings, Frame, FrameVerdict, RestShape, forces};
+use vibrissa::reconstruct::{Channel, Film, ForceSettings, Frame, FrameVerdict, RestShape, forces, rest_shape};
+use vibrissa::rod::{AnyRod, NaturalCurvature, RodError};
 
 /// Forces on a rod from a film.
 #[derive(Clone, Debug)]
@@ -160,4 +159,35 @@ fn with_channels(frames: Vec<(i64, Frame)>, rows: Vec<(i64, Vec<Channel>)>, ends
         all.entry(number).or_insert_with(|| ends.empty()).channels.extend(channels);
     }
     all.into_iter().collect()
+}
+
+/// The rod with the shape at rest that a film of the free rod shows, and the rods whose shape is off by one standard deviation.
+fn at_rest(
+    frames: &[Frame],
+    rod: FilmedRod,
+    settings: &ForceSettings,
+) -> Result<(FilmedRod, Option<RestShape>, Vec<AnyRod>), AtRestError> {
+    let rest = rest_shape(rod.rod.length(), frames, settings.sigma)?;
+    let bent = |coefficients: Vec<f64>| bent(&rod.rod, RestShape { coefficients, ..rest.clone() });
+    let others = rest.variations().into_iter().map(bent).collect::<Result<_, _>>()?;
+    let rod = FilmedRod { rod: bent(rest.coefficients.clone())?, ..rod };
+    Ok((rod, Some(rest), others))
+}
+
+/// The rod with this shape at rest.
+fn bent(rod: &AnyRod, shape: RestShape) -> Result<AnyRod, RodError> {
+    let curvature = match shape.coefficients[..] {
+        // a number keeps the closed form
+        [constant] => NaturalCurvature::from(constant),
+        _ => NaturalCurvature::from(move |s: f64| shape.curvature(s).0),
+    };
+    let bent = match rod.varying() {
+        Some(varying) => varying.clone().with_natural_curvature(curvature),
+        None => rod.at_clamp().with_natural_curvature(curvature),
+    };
+    let bent = AnyRod::from(bent?);
+    Ok(match rod.springs() {
+        Some(springs) => bent.with_springs(*springs),
+        None => bent,
+    })
 }

@@ -2,7 +2,7 @@
 
 use super::latency::Latency;
 use super::losses::Losses;
-use super::scan::LiveScan;
+use super::session::LiveScan;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;

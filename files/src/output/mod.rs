@@ -1,13 +1,11 @@
 //! Files of results: those of a sweep, and how files are written.
 
-mod guard;
 mod records;
 mod staged;
 mod stages;
 mod sweep;
 
-pub use guard::check_output;
-pub use staged::{OutputError, Staged};
+pub use staged::{OutputError, Staged, check_output};
 pub use stages::abandon;
 
 use crate::Scan;

@@ -1,13 +1,12 @@
 //! Contours as points: what `vibrissa contour` writes.
 
 mod reach;
-mod table;
 mod trace;
 
-pub use table::write_profile_table;
-
 use crate::Scene;
+use crate::output::write_csv;
 use reach::Reach;
+use std::io::{self, Write};
 use trace::Tracer;
 
 /// Largest distance of a chord from the contour unless it is given, in lengths of the rod: far below the width of a line.
@@ -108,4 +107,21 @@ impl Scene {
         }
         Ok(profiles)
     }
+}
+
+/// The columns of contour.csv.
+const COLUMNS: [&str; 6] = ["x", "y", "tangent_angle", "curvature", "arc_length", "object"];
+
+/// Writes the points of contours as CSV, one point a row, SI units and radians.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_profile_table(profiles: &[Profile], out: &mut dyn Write) -> io::Result<()> {
+    let rows = profiles.iter().flat_map(|profile| {
+        profile.points.iter().map(|point| {
+            let ProfilePoint { x, y, tangent_angle, curvature, arc_length } = *point;
+            (x, y, tangent_angle, curvature, arc_length, profile.object)
+        })
+    });
+    write_csv(out, &COLUMNS, rows)
 }

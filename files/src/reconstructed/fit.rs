@@ -34,11 +34,6 @@ impl Reconstructed {
         writeln!(text, "fit: no contour explains the recording, {of}{worst}; its phases: {}", labels.join(" "))
     }
 
-    /// Whether one contour explains the recording; false where that was not looked at.
-    pub fn is_explained(&self) -> bool {
-        self.fitted().is_some_and(|fit| fit.goodness.explains)
-    }
-
     /// The contour that was fitted; none where there is none.
     pub fn fitted(&self) -> Option<&ContourFit> {
         self.fit.as_ref()?.as_ref().ok()

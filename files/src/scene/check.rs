@@ -1,10 +1,12 @@
 //! From a document to a scene: every number checked where it stands.
 
-use super::document::{PointValue, SceneDocument, SweepTable};
+use super::document::{PointValue, RodTable, SceneDocument, SceneTables, SectionTable, SweepTable};
 use super::numbers::{check_step_count, not, too_large};
-use super::{Scene, files, friction, leg, object, plausible, rod_table};
+use super::{Scene, friction, leg, object, rod_table};
 use crate::toml_file::{Fault, SourceText};
-use std::path::Path;
+use serde_json::Value;
+use std::ops::{Range, RangeInclusive};
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use vibrissa::contact::ContactError;
 use vibrissa::{ClampPath, Pose};
@@ -20,7 +22,7 @@ pub(super) fn scene(
     document: SceneDocument,
     directory: &Path,
 ) -> Result<Scene, Fault> {
-    let unlikely = plausible::scene(&document.tables);
+    let unlikely = implausible(&document.tables);
     let also = unlikely.first().map(|also| (also.clone(), source.place(also.clone()).without_place()));
     scene_of_document(name, source, document, directory, unlikely).map_err(|fault| match also {
         Some((also, said)) => fault.beside(&also, &said),
@@ -35,7 +37,7 @@ fn scene_of_document(
     directory: &Path,
     unlikely: Vec<Fault>,
 ) -> Result<Scene, Fault> {
-    let files = std::iter::once(source.file().to_path_buf()).chain(files::named_files(&document, directory)).collect();
+    let files = std::iter::once(source.file().to_path_buf()).chain(named_files(&document, directory)).collect();
     let SceneDocument { tables, contour, objects: pieces } = document;
     let rod = rod_table::rod(&tables.rod, tables.clamp.as_ref())?;
     let objects = object::all(&tables, &contour, &pieces, directory)?;
@@ -109,4 +111,94 @@ fn step(table: &Spanned<SweepTable>, path: &ClampPath) -> Result<f64, Fault> {
         (false, None, None) => Err(missing("`step` (m)")),
         (true, None, None) => Err(missing("`step_angle` (degrees)")),
     }
+}
+
+/// Files of points, drawings and shapes, and those that a file of shapes names in turn. Relative ones are looked for in the
+/// directory of the file that names them.
+fn named_files(document: &SceneDocument, directory: &Path) -> Vec<PathBuf> {
+    let SceneDocument { tables, contour, objects } = document;
+    let pieces = contour.iter().chain(objects.iter().flatten()).filter_map(|piece| piece.file());
+    let mut files: Vec<PathBuf> = pieces.map(|file| directory.join(file)).collect();
+    let tables = tables.contour.iter().chain(&tables.object);
+    for file in tables.filter_map(|table| table.get_ref().file.as_ref()).map(|file| directory.join(file.get_ref())) {
+        let shapes = std::fs::read(&file).ok().and_then(|text| serde_json::from_slice::<Value>(&text).ok());
+        let beside = file.parent().unwrap_or(directory).to_path_buf();
+        if let Some(shapes) = shapes {
+            in_shapes(&shapes, &beside, &mut files);
+        }
+        files.push(file);
+    }
+    files
+}
+
+fn in_shapes(value: &Value, directory: &Path, files: &mut Vec<PathBuf>) {
+    match value {
+        Value::Object(fields) => {
+            files.extend(fields.get("file").and_then(Value::as_str).map(|file| directory.join(file)));
+            fields.values().for_each(|value| in_shapes(value, directory, files));
+        }
+        Value::Array(values) => values.iter().for_each(|value| in_shapes(value, directory, files)),
+        _ => {}
+    }
+}
+
+/// From a single fibre to a mast, m.
+const LENGTH: RangeInclusive<f64> = 1e-4..=10.0;
+/// From a carbon nanotube bundle to a bar, m.
+const DIAMETER: RangeInclusive<f64> = 1e-7..=0.1;
+/// From the softest silicone to above diamond, Pa.
+const MODULUS: RangeInclusive<f64> = 1e4..=2e12;
+/// Straight path, lengths of the rod, beyond which positions are most likely in another unit than m.
+const LONG_WAY: f64 = 100.0;
+
+/// A number, its name, where it is, its plausible range and unit.
+type Field = (&'static str, Option<(Range<usize>, f64)>, RangeInclusive<f64>, &'static str);
+
+/// A warning for each number of a scene outside of its plausible range.
+fn implausible(tables: &SceneTables) -> Vec<Fault> {
+    let rod = tables.rod.get_ref();
+    let sections = rod.section.iter().flat_map(|section| section_fields(section.get_ref()));
+    let fields = rod_fields(rod).into_iter().chain(sections);
+    fields.filter_map(unlikely).chain(long_way(tables)).collect()
+}
+
+fn rod_fields(table: &RodTable) -> Vec<Field> {
+    let RodTable { length, tip_diameter, youngs_modulus, .. } = table;
+    // the first of a list that is not plausible
+    let (place, diameters) = rod_table::diameters(table).unwrap_or_default();
+    let diameter = diameters.iter().find(|diameter| !DIAMETER.contains(diameter));
+    vec![
+        ("length", place_of(Some(length)), LENGTH, "m"),
+        ("diameter", diameter.map(|diameter| (place, *diameter)), DIAMETER, "m"),
+        ("tip_diameter", place_of(tip_diameter.as_ref()), DIAMETER, "m"),
+        ("youngs_modulus", place_of(youngs_modulus.as_ref()), MODULUS, "Pa"),
+    ]
+}
+
+fn section_fields(table: &SectionTable) -> Vec<Field> {
+    let SectionTable { diameter, youngs_modulus, .. } = table;
+    vec![
+        ("diameter", place_of(diameter.as_ref()), DIAMETER, "m"),
+        ("youngs_modulus", place_of(youngs_modulus.as_ref()), MODULUS, "Pa"),
+    ]
+}
+
+fn place_of(field: Option<&Spanned<f64>>) -> Option<(Range<usize>, f64)> {
+    field.map(|field| (field.span(), *field.get_ref()))
+}
+
+fn unlikely((name, field, range, unit): Field) -> Option<Fault> {
+    let (span, value) = field?;
+    let (least, most) = (range.start(), range.end());
+    let text = format!("{name} is {value} {unit}, expected {least:e} to {most:e} {unit}; is the unit right?");
+    (!range.contains(&value)).then(|| Fault::new(span, text))
+}
+
+/// A first leg that is very long beside the rod.
+fn long_way(tables: &SceneTables) -> Option<Fault> {
+    let (sweep, rod) = (tables.sweep.get_ref(), tables.rod.get_ref());
+    let [PointValue([x0, y0]), PointValue([x1, y1])] = [sweep.from.get_ref(), sweep.to.get_ref()];
+    let lengths = (x1 - x0).hypot(y1 - y0) / rod.length.get_ref();
+    let text = format!("the path is {lengths:.0} lengths of the rod long; are from and to in m?");
+    (lengths > LONG_WAY && lengths.is_finite()).then(|| Fault::new(sweep.to.span(), text))
 }

@@ -53,8 +53,8 @@ fn parse_any(file: &Path, text: &str) -> Result<CalibratedRod, SceneError> {
     })
 }
 
-/// The rod in a TOML file as for [`read_rod`](super::read_rod), with its table `[calibration]`. `instead` ends the message where the rod is
-/// not uniform, not straight at rest or not on a rigid clamp: what the user may do with it.
+/// The rod in a TOML file that holds a table `[rod]` as a scene does, or in a scene, with its table `[calibration]`. `instead` ends the
+/// message where the rod is not uniform, not straight at rest or not on a rigid clamp: what the user may do with it.
 ///
 /// # Errors
 /// [`SceneError`]: the file cannot be read, holds no rod, or its calibration is wrong.

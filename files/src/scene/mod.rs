@@ -6,13 +6,11 @@
 
 mod check;
 mod document;
-mod files;
 mod friction;
 mod known_rod;
 mod leg;
 mod numbers;
 mod object;
-mod plausible;
 mod rod;
 mod rod_table;
 mod shape;
@@ -21,7 +19,7 @@ pub use friction::SceneFriction;
 pub use known_rod::{CalibratedRod, read_calibrated_rod, read_uniform_rod, unit_of};
 pub use leg::{Leg, LegPath};
 pub(crate) use numbers::MOST_STATES;
-pub use rod::{FilmedRod, read_filmed_rod, read_rod};
+pub use rod::{FilmedRod, read_filmed_rod};
 
 use crate::SceneError;
 use crate::toml_file::{self, SourceText};

@@ -12,9 +12,6 @@ use toml::de::Deserializer;
 use vibrissa::Rod;
 use vibrissa::rod::AnyRod;
 
-/// What a program may do with another rod than a uniform, straight one.
-const INSTEAD: &str = "`read_calibrated_rod` reads any";
-
 /// A file with a rod in it: that, perhaps with a calibration, or a scene, of which nothing else is looked at.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -50,14 +47,6 @@ impl RodFile {
     }
 }
 
-/// The rod in a TOML file that holds a table `[rod]` as a scene does, or in a scene.
-///
-/// # Errors
-/// [`SceneError`]: the file cannot be read, or holds no rod.
-pub fn read_rod(file: &Path) -> Result<Rod, SceneError> {
-    parse(file, &toml_file::text("the rod", file)?)
-}
-
 /// A rod that was filmed.
 #[derive(Clone, Debug)]
 pub struct FilmedRod {
@@ -68,8 +57,8 @@ pub struct FilmedRod {
     pub is_stiffness_known: bool,
 }
 
-/// The rod in a TOML file as for [`read_rod`], of any kind on any springs, perhaps of another `length` (m) than the file says. It may have no
-/// stiffness at all: neither bending_stiffness nor youngs_modulus.
+/// The rod in a TOML file that holds a table `[rod]` as a scene does, or in a scene: of any kind on any springs, perhaps of another
+/// `length` (m) than the file says. It may have no stiffness at all: neither bending_stiffness nor youngs_modulus.
 ///
 /// # Errors
 /// [`SceneError`]: the file cannot be read, or holds no rod.
@@ -85,25 +74,27 @@ fn parse_filmed(file: &Path, text: &str, length: Option<f64>) -> Result<FilmedRo
     })
 }
 
-fn parse(file: &Path, text: &str) -> Result<Rod, SceneError> {
-    toml_file::parse(file, text, |table| RodFile::deserialize(Deserializer::from(table))?.uniform(INSTEAD))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::read_uniform_rod;
+
+    fn parse(text: &str) -> Result<Rod, SceneError> {
+        let rod_of = |file: RodFile| file.uniform("take another");
+        toml_file::parse("rod.toml".as_ref(), text, |table| rod_of(RodFile::deserialize(Deserializer::from(table))?))
+    }
 
     #[test]
     fn a_rod_alone_and_that_of_a_scene() {
-        let alone = parse("rod.toml".as_ref(), "[rod]\nlength = 0.1\nbending_stiffness = 6.32e-4\n").unwrap();
+        let alone = parse("[rod]\nlength = 0.1\nbending_stiffness = 6.32e-4\n").unwrap();
         assert_eq!((alone.length(), alone.bending_stiffness()), (0.1, 6.32e-4));
         let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/O1_q40.toml");
-        let rod = read_rod(&scene).unwrap();
+        let (rod, _) = read_uniform_rod(&scene, "").unwrap();
         assert!((rod.bending_stiffness() - 6.32e-4).abs() < 1e-6);
         // Of a scene only the rod is looked at.
         let scene =
             "[rod]\nlength = 0.1\nbending_stiffness = 1\n[contact]\nfriction = 1\n[sweep]\nfrom = 3\n[[object]]\n";
-        assert!(parse("scene.toml".as_ref(), scene).is_ok());
+        assert!(parse(scene).is_ok());
     }
 
     #[test]
@@ -165,10 +156,10 @@ mod tests {
             ),
             ("[rod]\nlength = \"m\"", "rod.toml:2:10: rod.length: the value is the text \"m\", expected a number"),
         ] {
-            let error = parse("rod.toml".as_ref(), text).unwrap_err().to_string();
+            let error = parse(text).unwrap_err().to_string();
             assert!(error.starts_with(message), "{error}");
         }
-        let error = read_rod("nowhere.toml".as_ref()).unwrap_err().to_string();
+        let error = read_uniform_rod("nowhere.toml".as_ref(), "").unwrap_err().to_string();
         assert!(error.starts_with("cannot read the rod nowhere.toml: "), "{error}");
     }
 }

@@ -1,6 +1,5 @@
 //! TOML files: read, turned into something, and complained about with the place of what is wrong.
 
-mod angle;
 mod error;
 mod message;
 mod number;
@@ -47,6 +46,6 @@ pub(crate) fn parse_angles<T>(
     let table = DeTable::parse(text).map_err(|error| Fault::of_syntax(error, text).in_text(file, text, None))?;
     let in_text = |fault: Fault| fault.in_text(file, text, Some(table.get_ref()));
     let checked = check(table.clone()).map_err(in_text)?;
-    let warnings = angle::suspicious(table.get_ref(), text).into_iter().map(|fault| in_text(fault).to_string());
+    let warnings = number::suspicious(table.get_ref(), text).into_iter().map(|fault| in_text(fault).to_string());
     Ok((checked, warnings.collect()))
 }

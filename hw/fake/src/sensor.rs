@@ -73,10 +73,6 @@ pub struct Served {
     pub lost: u64,
     /// Of these, not sent because the host does not read.
     pub overrun: u64,
-    /// Bytes sent.
-    pub sent: u64,
-    /// Bytes heard.
-    pub heard: u64,
 }
 
 /// Why a fake device stopped.
@@ -126,11 +122,6 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
         self.served
     }
 
-    /// The device.
-    pub fn device(&self) -> &D {
-        &self.device
-    }
-
     /// Serves a host until there is a reason to end, or `go_on` says no. Reads and writes of the stream must come back when
     /// there is nothing to do, after about 1 ms. Called again, it goes on with the next frame.
     ///
@@ -151,10 +142,7 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
             }
             match stream.read(&mut buffer) {
                 Ok(0) => return Ok(End::Closed),
-                Ok(count) => {
-                    self.served.heard += count as u64;
-                    self.device.hear(buffer.get(..count).unwrap_or_default(), &mut pending);
-                }
+                Ok(count) => self.device.hear(buffer.get(..count).unwrap_or_default(), &mut pending),
                 Err(error) if is_idle(&error) => {}
                 Err(error) => return closed(error),
             }
@@ -230,7 +218,6 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
             }
         };
         pending.drain(..written);
-        self.served.sent += written as u64;
         done
     }
 

@@ -5,7 +5,6 @@ mod accuracy;
 mod ati;
 mod error;
 mod gauge_matrix;
-mod rank;
 mod rated_load;
 mod scale;
 mod sensor_check;

@@ -62,7 +62,7 @@ const NEWS: Quality = Quality::RESTARTED.union(Quality::GAP_BEFORE);
 /// assert_eq!(chain.take(&sample)?.reactions.f0x, -0.5);
 /// // what it read without load, once that is known
 /// let unloaded = Wrench { force: [0.25, 0.0, 0.0], torque: [0.0; 3] };
-/// let zero = Zero::known(unloaded, Wrench { force: [1e-3; 3], torque: [1e-5; 3] }, 0.0, 1.0)?;
+/// let zero = Zero::known(unloaded, Wrench { force: [1e-3; 3], torque: [1e-5; 3] }, 1.0)?;
 /// chain.set_tare(Some(Tare::single(zero)));
 /// assert_eq!(chain.take(&sample)?.reactions.f0x, -0.25);
 /// // the device began anew, and with it its zero

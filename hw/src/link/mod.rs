@@ -4,8 +4,6 @@ mod clock;
 mod counters;
 mod protocol;
 mod protocol_link;
-#[cfg(feature = "serial")]
-mod read_write;
 mod sequence;
 #[cfg(feature = "serial")]
 mod serial_port;

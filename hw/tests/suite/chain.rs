@@ -209,7 +209,7 @@ fn a_tare_goes_stale_with_the_device() {
     assert!((untared.reactions.f0y - 0.3).abs() < 1e-15 && untared.quality.is_empty());
     let none = Wrench { force: [0.0; 3], torque: [0.0; 3] };
     let unloaded = chain.wrench(&raw(0.1, good)).unwrap();
-    let tare = |t: f64| Some(Tare::single(Zero::known(unloaded.wrench, none, t, t).unwrap()));
+    let tare = |t: f64| Some(Tare::single(Zero::known(unloaded.wrench, none, t).unwrap()));
     chain.wrenches().set_tare(tare(0.1));
     let tared = chain.take(&raw(0.2, good)).unwrap();
     assert_eq!((tared.reactions, tared.quality), (Reactions { f0x: -0.0, f0y: 0.0, m0z: 0.0 }, good));
@@ -225,7 +225,7 @@ fn a_tare_goes_stale_with_the_device() {
 #[test]
 fn a_restart_is_not_lost_with_its_sample() {
     let good = Channels::from([0.0; 6]);
-    let zero = Zero::known(Wrench::default(), Wrench::default(), 0.0, 0.1).unwrap();
+    let zero = Zero::known(Wrench::default(), Wrench::default(), 0.0).unwrap();
     let news = Quality::RESTARTED | Quality::GAP_BEFORE;
     for broken in [
         RawSample::new(1.0, Channels::from([f64::NAN; 6])),

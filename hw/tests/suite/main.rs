@@ -6,7 +6,6 @@ mod chain;
 mod chain_parts;
 mod device;
 mod framed;
-mod geometry;
 mod link;
 #[cfg(feature = "mcap")]
 mod mcap;

@@ -220,7 +220,7 @@ fn a_sensor_that_counts_anew() {
     // its zero is another one now
     let calibration = FakeRdtSettings::default().scaling.calibration::<f64>().unwrap();
     let begin = samples[0].host_time;
-    let mut tare = Tare::single(Zero::known(Wrench::default(), Wrench::default(), begin, begin + 1e-3).unwrap());
+    let mut tare = Tare::single(Zero::known(Wrench::default(), Wrench::default(), begin).unwrap());
     let tared = samples.iter().map(|raw| tare.apply(&calibration.wrench(raw).unwrap()));
     let stale: Vec<bool> = tared.map(|sample| sample.quality.contains(Quality::TARE_STALE)).collect();
     assert_eq!(stale, came(&samples).iter().map(|count| *count >= 51).collect::<Vec<_>>());
@@ -439,24 +439,14 @@ fn so_many_as_asked_for_and_status_from_the_source() {
 }
 
 #[test]
-fn scaling_and_readings_over_tcp() {
-    use std::io::{Read, Write};
-    let mut settings = FakeRdtSettings::default();
-    settings.scaling.scale = [10, 10, 10, 2, 2, 2];
-    let fake = FakeRdt::start(settings.clone(), [[400_000, -100, 30, 4, -6, 8]; 3]).unwrap();
+fn scaling_over_tcp() {
+    let settings = FakeRdtSettings::default();
+    let fake = FakeRdt::start(settings.clone(), [[0; 6]; 3]).unwrap();
     let host = fake.scaling_address().unwrap().to_string();
     for _ in 0..2 {
         assert_eq!(read_scaling(&host, Duration::from_secs(10)).unwrap(), settings.scaling);
     }
-    let mut link = link(&fake, net_ft());
-    drain(&mut link, &fake);
-    let mut stream = std::net::TcpStream::connect(&host).unwrap();
-    stream.write_all(&[0; 20]).unwrap();
-    let mut bytes = [0; 16];
-    stream.read_exact(&mut bytes).unwrap();
-    // 16 bits each, by their scale; what does not fit is at the rail
-    assert_eq!(bytes, [0x12, 0x34, 0, 0, 0x7f, 0xff, 0xff, 0xf6, 0, 3, 0, 2, 0xff, 0xfd, 0, 4]);
-    assert_eq!(fake.account().answers, 3);
+    assert_eq!(fake.account().answers, 2);
 }
 
 /// 7000 samples a second for a minute, and how long each is on its way:

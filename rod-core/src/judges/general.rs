@@ -93,14 +93,6 @@ impl<'rod> GeneralElastica<'rod> {
         })
     }
 
-    /// Bending moment at arc length `s`.
-    ///
-    /// # Errors
-    /// As [`GeneralElastica::at`].
-    pub fn moment(&self, s: f64) -> Result<f64, RodError> {
-        Ok(self.cut(s / self.units.length)?.moment * self.units.moment)
-    }
-
     /// What the clamp feels.
     pub fn reactions(&self) -> Reactions {
         let Segment { start, a, b, .. } = self.segments[0];
@@ -139,7 +131,6 @@ mod tests {
                 let (u, v) = (shape.at(s).unwrap(), exact.at(s));
                 assert!((u.x - v.x).abs() < bound * units.length && (u.y - v.y).abs() < bound * units.length);
                 assert!((u.phi - v.phi).abs() < bound * 10.0);
-                assert!((shape.moment(s).unwrap() - exact.moment(s)).abs() < bound * 10.0 * units.moment);
             }
         }
     }

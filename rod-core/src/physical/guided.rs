@@ -36,8 +36,7 @@ impl Clamp for RollerClamp {
 ///
 /// ```
 /// use rod_core::{Guided, Rod};
-/// let rod = Guided::new(Rod::new(0.1, 2e-3)?, 0.02)?; // m
-/// assert_eq!(rod.roller(), 0.02);
+/// assert!(Guided::new(Rod::new(0.1, 2e-3)?, 0.02).is_ok()); // m
 /// let message = Guided::new(Rod::new(0.1, 2e-3)?, 0.2).unwrap_err().to_string();
 /// assert_eq!(message, "clamp.roller is 0.2, expected a number above 0 and below 0.1, the length of the rod");
 /// # Ok::<(), rod_core::RodError>(())
@@ -45,8 +44,6 @@ impl Clamp for RollerClamp {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guided<R> {
     rod: R,
-    /// m
-    distance: f64,
     roller: Roller,
 }
 
@@ -64,7 +61,7 @@ impl<R: PhysicalRod<Clamp = Pose>> Guided<R> {
             return Err(RodError::Roller { value: roller, length });
         }
         let dimensionless = Roller::of(rod.model(), roller / length);
-        Ok(Self { rod, distance: roller, roller: dimensionless })
+        Ok(Self { rod, roller: dimensionless })
     }
 }
 
@@ -72,11 +69,6 @@ impl<R> Guided<R> {
     /// The rod.
     pub fn rod(&self) -> &R {
         &self.rod
-    }
-
-    /// Arc length at rest from the clamp to the roller, m.
-    pub fn roller(&self) -> f64 {
-        self.distance
     }
 
     pub(crate) fn dimensionless(&self) -> Roller {

@@ -38,11 +38,6 @@ impl<R> Mounted<R> {
     pub fn rod(&self) -> &R {
         &self.rod
     }
-
-    /// Its clamp, SI units.
-    pub fn springs(&self) -> &ElasticClamp {
-        &self.clamp
-    }
 }
 
 impl<R: PhysicalRod<Clamp = Pose>> PhysicalRod for Mounted<R> {

@@ -181,11 +181,6 @@ impl NewtonWorkspace {
         &self.inverse
     }
 
-    /// The Jacobian that the last step used, column-major.
-    pub fn jacobian(&self) -> &[f64] {
-        &self.jacobian
-    }
-
     fn norm(&self, v: &[f64]) -> f64 {
         largest_of(v.iter().zip(&self.weights).map(|(v, w)| v * w))
     }

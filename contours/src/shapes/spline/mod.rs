@@ -1,6 +1,5 @@
 //! The cubic spline: a smooth contour through given points.
 
-mod arc_length;
 mod chords;
 mod cuts;
 mod end;
@@ -10,16 +9,14 @@ mod smooth;
 
 use std::f64::consts::PI;
 use std::ops::Range as Span;
-use std::sync::OnceLock;
 
 pub use end::SplineEnd;
 
 use crate::contour::{Seal, Trust};
 use crate::point::{SMOOTH, cross, dot, nearest_turn};
 use crate::proof::limits;
-use crate::shapes::cubic::nearest;
+use crate::shapes::cubic::{Cubic, nearest};
 use crate::{Bounds, Closest, Contour, ContourError, Frame, Point, Range, Vector, check};
-use arc_length::{length_to, lengths, rough_length};
 use chords::Chords;
 use keys::Keys;
 
@@ -30,7 +27,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 ///
 /// [`Spline::through`] gives continuous curvature, with natural, clamped or periodic ends; [`Spline::smoothing`] does the
 /// same for points that are known only up to noise. The parameter is a length, that of the polygon of the points, and the
-/// speed is about 1. Point, direction, curvature and arc length are those of the cubics to rounding: at coordinates of
+/// speed is about 1. Point, direction and curvature are those of the cubics to rounding: at coordinates of
 /// size `c` and points `h` apart that is `1e-16 c` in position, `1e-16 c / h` in the direction and `1e-16 c / h^2` in the
 /// curvature.
 ///
@@ -58,8 +55,6 @@ pub struct Spline {
     keys: Keys,
     /// Tangent angle at the start of each cubic, without jumps along the spline.
     angles: Vec<f64>,
-    /// Arc length up to each point, not before it is asked for: near a cusp it takes thousands of evaluations.
-    lengths: OnceLock<Vec<f64>>,
     chords: Chords,
     bounds: Bounds,
 }
@@ -90,46 +85,16 @@ impl Spline {
         self.keys.sample(t)
     }
 
-    /// The length of the whole spline, exact to 1e-13 relative.
-    pub fn length(&self) -> f64 {
-        let lengths = self.lengths();
-        lengths[lengths.len() - 1]
-    }
-
-    /// The length of the spline from its start to the parameter `t`, exact to 1e-13 relative to the whole; beyond the ends
-    /// that of the continued end cubics, negative before the start.
-    ///
-    /// ```
-    /// use rod_contours::{Spline, SplineEnd};
-    ///
-    /// let bent = Spline::through(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]], SplineEnd::Natural)?;
-    /// assert_eq!(bent.arc_length(0.0), 0.0);
-    /// assert!((bent.arc_length(2.0_f64.sqrt()) - 0.5 * bent.length()).abs() < 1e-15);
-    /// # Ok::<(), rod_contours::ContourError>(())
-    /// ```
-    pub fn arc_length(&self, t: f64) -> f64 {
-        let index = self.keys.cubic_at(t);
-        if t == self.keys.knot(index + 1) {
-            return self.lengths()[index + 1];
-        }
-        let cubic = self.keys.cubic(index);
-        self.lengths()[index] + length_to(&cubic, cubic.fraction(t))
-    }
-
     /// The spline of keys that may come from anywhere.
     fn from_keys(keys: Keys) -> Result<Self, ContourError> {
         keys.check()?;
         let count = keys.len() - 1;
         let angles = angles(&keys)?;
-        check::finite([("the length of the spline", rough_length((0..count).map(|index| keys.cubic(index))))])?;
+        check::finite([("the length of the spline", (0..count).map(|index| rough_length(&keys.cubic(index))).sum())])?;
         let chords = Chords::new(count, |index| keys.cubic(index));
         let boxes = (0..count).map(|index| keys.cubic(index).bounds(0.0, 1.0));
         let bounds = boxes.fold(Bounds::EMPTY, |bounds, one| bounds.union(one));
-        Ok(Self { keys, angles, lengths: OnceLock::new(), chords, bounds })
-    }
-
-    fn lengths(&self) -> &[f64] {
-        self.lengths.get_or_init(|| lengths((0..self.keys.len() - 1).map(|index| self.keys.cubic(index))))
+        Ok(Self { keys, angles, chords, bounds })
     }
 
     /// The cubics that share more than an end with the range, at least one.
@@ -163,6 +128,12 @@ impl Spline {
         };
         one_way(1.0) || one_way(-1.0)
     }
+}
+
+/// The length of a cubic within a factor of about 3: finite where speed and length are.
+fn rough_length(cubic: &Cubic) -> f64 {
+    let velocity = cubic.velocity();
+    cubic.width * [0.0, 0.5, 1.0].iter().map(|&s| dot(velocity.at(s), velocity.at(s)).sqrt()).sum::<f64>()
 }
 
 /// The tangent angle at the start of each cubic, continued over whole turns.

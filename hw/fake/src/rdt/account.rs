@@ -1,7 +1,6 @@
 //! What a fake sensor did.
 
 use super::settings::FakeRdtSettings;
-use rod_hw::device::rdt::RdtRecord;
 use std::net::SocketAddr;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -29,16 +28,12 @@ pub struct FakeRdtAccount {
     pub malformed: u64,
     /// Records from another sensor.
     pub foreign: u64,
-    /// Times that the samples were counted anew, with or without loss of power.
-    pub restarts: u64,
     /// Requests to start that were answered.
     pub starts: u64,
     /// Requests that got lost: to start, as told, and any without power.
     pub ignored: u64,
     /// Requests to stop.
     pub stops: u64,
-    /// Requests for a new zero.
-    pub biases: u64,
     /// Requests that are not known.
     pub unknown: u64,
     /// Answers over TCP.
@@ -67,8 +62,6 @@ pub(super) struct State {
     pub(super) off: bool,
     /// Requests to start that are still to be lost.
     pub(super) to_ignore: u32,
-    /// The record sent last.
-    pub(super) last: RdtRecord,
     pub(super) account: FakeRdtAccount,
 }
 
@@ -80,7 +73,6 @@ impl Shared {
             start: 0,
             off: false,
             to_ignore: settings.ignored_starts,
-            last: RdtRecord::default(),
             account: FakeRdtAccount::default(),
         };
         Self { state: Mutex::new(state), changed: Condvar::new(), stop: AtomicBool::new(false) }

@@ -31,7 +31,7 @@ pub(super) fn serve_udp(shared: &Shared, socket: &UdpSocket) {
 impl State {
     /// Does what it is asked.
     fn answer(&mut self, request: Option<RdtRequest>, from: SocketAddr) {
-        use RdtRequest::{Bias, Start, Stop};
+        use RdtRequest::{Start, Stop};
         let account = &mut self.account;
         match request {
             _ if self.off => account.ignored += 1,
@@ -49,7 +49,6 @@ impl State {
                 account.stops += 1;
                 self.client = None;
             }
-            Some(Bias) => account.biases += 1,
             None => account.unknown += 1,
         }
     }
@@ -87,29 +86,12 @@ fn serve(shared: &Shared, mut stream: TcpStream, scaling: &RdtScaling) -> Result
             if state.off {
                 return Ok(());
             }
-            match request[0] {
-                0 => stream.write_all(&state.reading(scaling))?,
-                1 => stream.write_all(&scaling.to_bytes())?,
-                _ => return Ok(()),
+            if request[0] != 1 {
+                return Ok(());
             }
+            stream.write_all(&scaling.to_bytes())?;
             state.account.answers += 1;
         }
     }
     Ok(())
-}
-
-impl State {
-    /// The record sent last as 16-bit counts over TCP.
-    fn reading(&self, scaling: &RdtScaling) -> [u8; 16] {
-        let mut bytes = [0; 16];
-        let status = (self.last.status >> 16) as u16;
-        let counts = self.last.counts.iter().zip(scaling.scale).map(|(&count, scale)| {
-            let scaled = i64::from(count) / i64::from(scale.max(1));
-            scaled.clamp(i16::MIN.into(), i16::MAX.into()) as u16
-        });
-        for (two, word) in bytes.chunks_exact_mut(2).zip([0x1234, status].into_iter().chain(counts)) {
-            two.copy_from_slice(&word.to_be_bytes());
-        }
-        bytes
-    }
 }

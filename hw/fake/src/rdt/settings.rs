@@ -43,7 +43,6 @@ impl Default for FakeRdtSettings {
                 torque_unit: unit("N m", Dimension::Torque, 1.0),
                 counts_per_force: 1e6,
                 counts_per_torque: 1e6,
-                scale: [1; 6],
             },
             first_packet: 1,
             first_sample: 1,

@@ -149,15 +149,11 @@ impl<'a> Stream<'a> {
                 }
             }
             RdtFault::Pause(seconds) => self.pace.delay(seconds),
-            RdtFault::CountAnew => {
-                self.sample = self.first_sample;
-                self.shared.lock().account.restarts += 1;
-            }
+            RdtFault::CountAnew => self.sample = self.first_sample,
             RdtFault::PowerOff(seconds) => {
                 self.flush(client);
                 let mut state = self.shared.lock();
                 (state.client, state.off) = (None, true);
-                state.account.restarts += 1;
                 drop(state);
                 let (since, off) = (Instant::now(), Duration::try_from_secs_f64(seconds).unwrap_or_default());
                 while since.elapsed() < off && !self.stopped() {
@@ -203,7 +199,6 @@ impl<'a> Stream<'a> {
         self.datagram.records += 1;
         self.datagram.flagged += u64::from(record.status != 0);
         let mut state = self.shared.lock();
-        state.last = record;
         state.account.records += 1;
         state.left = state.left.map(|left| left.saturating_sub(1));
         if state.left == Some(0) {

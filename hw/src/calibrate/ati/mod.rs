@@ -35,8 +35,6 @@ use std::path::Path;
 pub struct AtiFile {
     /// Serial number of the sensor: the file is for no other.
     pub serial: String,
-    /// Its kind, as `Mini40`.
-    pub body_style: String,
     /// What it is calibrated for.
     pub calibrations: Vec<AtiCalibration>,
 }
@@ -105,8 +103,7 @@ impl AtiFile {
             let found = "`FTSensor` has no `Calibration`".to_owned();
             return Err(AtiFileError::Element { line: root.line(), found, expected: "one at least" });
         }
-        let body_style = root.attribute("BodyStyle").unwrap_or_default().to_owned();
-        Ok(Self { serial: root.text("Serial")?, body_style, calibrations })
+        Ok(Self { serial: root.text("Serial")?, calibrations })
     }
 
     /// The calibration of this part number, or the only one there is.

@@ -20,7 +20,7 @@ const BOUND: f64 = 3.0;
 /// ```
 /// use rod_hw::{Quality, Tare, Wrench, WrenchSample, Zero};
 /// let wrench = |force| Wrench { force: [force, 0.0, 0.0], torque: [0.0; 3] };
-/// let mut tare: Tare = Tare::single(Zero::known(wrench(0.125), wrench(1e-3), 0.0, 2.0)?);
+/// let mut tare: Tare = Tare::single(Zero::known(wrench(0.125), wrench(1e-3), 2.0)?);
 /// let mut sample = WrenchSample::new(51.0, wrench(0.5));
 /// assert_eq!(tare.apply(&sample).wrench.force[0], 0.375);
 /// // the device started anew, after the zero was measured

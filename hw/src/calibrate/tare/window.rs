@@ -3,7 +3,6 @@
 use super::batches::{Batches, Course};
 use super::{TareError, Zero};
 use crate::sample::{Component, Number, Quality, Wrench, WrenchSample};
-use core::array::from_fn;
 use core::marker::PhantomData;
 use rod_core::Scalar;
 
@@ -39,8 +38,6 @@ pub struct TareWindow<T = f64> {
     batches: Batches,
     count: usize,
     mean: [f64; 6],
-    /// Sums of squares about the mean.
-    squares: [f64; 6],
     from: f64,
     to: f64,
     arrived: f64,
@@ -56,7 +53,6 @@ impl<T: Number> TareWindow<T> {
             batches: Batches::new(),
             count: 0,
             mean: [0.0; 6],
-            squares: [0.0; 6],
             from: 0.0,
             to: 0.0,
             arrived: 0.0,
@@ -80,10 +76,8 @@ impl<T: Number> TareWindow<T> {
         self.to = sample.t;
         self.count += 1;
         let values = sample.wrench.components().map(Scalar::to_f64);
-        for ((mean, square), value) in self.mean.iter_mut().zip(&mut self.squares).zip(values) {
-            let away = value - *mean;
-            *mean += away / self.count as f64;
-            *square += away * (value - *mean);
+        for (mean, value) in self.mean.iter_mut().zip(values) {
+            *mean += (value - *mean) / self.count as f64;
         }
         self.batches.push(sample.t, values);
         Ok(())
@@ -104,11 +98,6 @@ impl<T: Number> TareWindow<T> {
         bad.map_or(Ok(()), |component| {
             Err(TareError::NotFinite { component, t, value: component.of(&sample.wrench).to_f64() })
         })
-    }
-
-    /// How many samples it took.
-    pub fn count(&self) -> usize {
-        self.count
     }
 
     /// How long it lasts, s, a sample's period after the last one included.
@@ -143,10 +132,8 @@ impl<T: Number> TareWindow<T> {
             sigma[component.index()] = course.sigma;
         }
         let wrench = |components: [f64; 6]| Wrench::from_components(components.map(T::from_f64));
-        let freedom = (count - 1) as f64;
-        let noise = wrench(from_fn(|i| Scalar::sqrt(self.squares[i] / freedom)));
-        let zero = Zero::known(wrench(self.mean), wrench(sigma), self.from, self.to)?;
-        Ok(Zero { noise: Some(noise), count, arrived: self.arrived, ..zero })
+        let zero = Zero::known(wrench(self.mean), wrench(sigma), self.arrived)?;
+        Ok(Zero { count, ..zero })
     }
 
     fn at_rest(&self, component: Component, course: &Course) -> Result<(), TareError> {

@@ -72,8 +72,6 @@ pub enum RdtRequest {
         /// How many.
         count: u32,
     },
-    /// Take the load of now for zero.
-    Bias,
 }
 
 impl RdtRequest {
@@ -82,8 +80,6 @@ impl RdtRequest {
         match self {
             Self::Stop => (0x0000, 0),
             Self::Start { count } => (0x0002, count),
-            // ATI sensors do not look at the number; OnRobot's take 0 for the way back to the old zero
-            Self::Bias => (0x0042, 255),
         }
     }
 
@@ -101,7 +97,6 @@ impl RdtRequest {
         Some(match u16::from_be_bytes([c, d]) {
             0x0000 => Self::Stop,
             0x0002 => Self::Start { count },
-            0x0042 => Self::Bias,
             _ => return None,
         })
     }

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 /// use rod_hw::device::rdt::RdtScaling;
 /// let bytes = [
 ///     0x12, 0x34, 2, 4, 0, 0, 0x03, 0xe8, 0, 0, 0, 10, // N, N mm, 1000 and 10 counts
-///     0, 7, 0, 7, 0, 7, 0, 9, 0, 9, 0, 9,
+///     0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1,
 /// ];
 /// let scaling = RdtScaling::from_bytes(&bytes)?;
 /// assert_eq!((scaling.force_unit.name, scaling.torque_unit.name), ("N", "N mm"));
@@ -31,9 +31,6 @@ pub struct RdtScaling {
     pub counts_per_force: f64,
     /// Counts of one unit of torque.
     pub counts_per_torque: f64,
-    /// What the 16-bit readings over TCP are to be multiplied by to be counts, Fx to Tz. It has nothing to do with the records
-    /// over UDP, which are counts.
-    pub scale: [u16; 6],
 }
 
 /// Why the scaling is not known.
@@ -101,6 +98,9 @@ pub enum RdtError {
 const FORCE: [&str; 6] = ["lbf", "N", "klbf", "kN", "kgf", "gf"];
 const TORQUE: [&str; 6] = ["lbf in", "lbf ft", "N m", "N mm", "kgf cm", "kN m"];
 
+/// What its 16-bit readings over TCP, which nothing here asks for, are to be multiplied by.
+const READINGS: [[u8; 2]; 6] = [[0, 1]; 6];
+
 /// How long the answer is.
 const ANSWER: usize = 24;
 
@@ -134,7 +134,6 @@ impl RdtScaling {
             torque_unit: unit(3, Dimension::Torque, TORQUE)?,
             counts_per_force: counts(4, Dimension::Force)?,
             counts_per_torque: counts(8, Dimension::Torque)?,
-            scale: core::array::from_fn(|i| be(12 + 2 * i, 2) as u16),
         })
     }
 
@@ -145,8 +144,7 @@ impl RdtScaling {
         let mut bytes = [0; ANSWER];
         let head = [0x12, 0x34, code(self.force_unit, FORCE), code(self.torque_unit, TORQUE)];
         let counts = [self.counts_per_force, self.counts_per_torque].map(|counts| (counts as u32).to_be_bytes());
-        let scale = self.scale.map(u16::to_be_bytes);
-        let all = head.iter().chain(counts.as_flattened()).chain(scale.as_flattened());
+        let all = head.iter().chain(counts.as_flattened()).chain(READINGS.as_flattened());
         bytes.iter_mut().zip(all).for_each(|(byte, value)| *byte = *value);
         bytes
     }

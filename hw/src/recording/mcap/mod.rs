@@ -112,11 +112,6 @@ impl<'a> McapFile<'a> {
         &self.topics
     }
 
-    /// When the first message was logged, ns since 1970: the origin of all times.
-    pub fn origin(&self) -> u64 {
-        self.origin
-    }
-
     /// The wrenches of a topic, in the order they were logged, N and N m as ROS has them.
     /// Their time is that of the header where it has one, that of the log otherwise; the host's time is that of the log. It goes
     /// on after a message that is wrong; why the file breaks off, if it does, comes last.

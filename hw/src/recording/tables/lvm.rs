@@ -24,18 +24,10 @@ pub(super) fn is_lvm(bytes: &[u8]) -> bool {
 struct Format {
     delimiter: Delimiter,
     decimal: Decimal,
-    x_columns: XColumns,
+    /// The first column is empty: x follows from `X0` and `Delta_X`.
+    without_x: bool,
     /// Held once: a file can have far more segments than its header has lines.
     notes: Arc<[Note]>,
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum XColumns {
-    /// The first column is empty: x follows from `X0` and `Delta_X`.
-    No,
-    One,
-    /// One before each channel.
-    Multi,
 }
 
 /// What the header of a segment says of its channels.
@@ -80,7 +72,7 @@ impl Format {
         lines: &mut Peekable<Lines<'_>>,
         options: &TableOptions,
     ) -> Result<Self, TableError> {
-        let (mut separator, mut decimal, mut x_columns) = (None, options.decimal, XColumns::One);
+        let (mut separator, mut decimal, mut without_x) = (None, options.decimal, false);
         let mut notes = Vec::new();
         let mut last = 0;
         let mut ended = false;
@@ -100,13 +92,7 @@ impl Format {
                 "Decimal_Separator" if decimal.is_none() => {
                     decimal = Some(if value.starts_with('.') { Decimal::Point } else { Decimal::Comma });
                 }
-                "X_Columns" => {
-                    x_columns = match value.trim_end_matches(',') {
-                        "No" => XColumns::No,
-                        "Multi" => XColumns::Multi,
-                        _ => XColumns::One,
-                    }
-                }
+                "X_Columns" => without_x = value.trim_end_matches(',') == "No",
                 _ => {}
             }
             if notes.len() < MOST_NOTES {
@@ -120,7 +106,7 @@ impl Format {
         let delimiter = options.delimiter.or(separator).unwrap_or(Delimiter::Tab);
         let decimal =
             decimal.unwrap_or_else(|| if delimiter == Delimiter::Comma { Decimal::Point } else { mark(bytes) });
-        Ok(Self { delimiter, decimal, x_columns, notes: notes.into() })
+        Ok(Self { delimiter, decimal, without_x, notes: notes.into() })
     }
 }
 
@@ -180,7 +166,7 @@ impl<'t> Reader<'_, 't> {
             table.add_row(line, &text, splitter, self.format.decimal, usize::from(commented));
         }
         self.skip_blank();
-        if self.format.x_columns == XColumns::No {
+        if self.format.without_x {
             let (start, step) = header.spacing(self.file, line, names.len() - 1 - usize::from(commented))?;
             table.fill(0, |k| start + k as f64 * step);
         }

@@ -57,7 +57,7 @@ pub enum Header {
 /// assert!(Table::parse("f.csv", text, &TableOptions::default()).is_err());
 /// let options = TableOptions { decimal: Some(Decimal::Comma), ..TableOptions::default() };
 /// let table = Table::parse("f.csv", text, &options)?;
-/// assert_eq!(table.row(0).and_then(|row| row.number(0).ok()), Some(0.5));
+/// assert_eq!(table.rows().nth(0).and_then(|row| row.number(0).ok()), Some(0.5));
 /// # Ok::<(), rod_hw::recording::TableError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]

@@ -15,7 +15,7 @@ pub trait Recorded: Sized + sealed::Sealed {
     /// Columns that must be there.
     const NEEDED: &'static [Role];
     /// Columns that are read where they are there.
-    const WELCOME: &'static [Role];
+    const WELCOME: &'static [&'static [Role]];
     /// Whether the raw values must be there.
     const CHANNELS: bool = false;
 
@@ -36,10 +36,13 @@ mod sealed {
     impl Sealed for crate::sample::ReactionSample {}
 }
 
+/// Of the raw sample behind another one.
+pub(super) const RAW: [Role; 6] =
+    [Role::HostTime, Role::DeviceTime, Role::Sequence, Role::Status, Role::Temperature, Role::RawQuality];
 const WRENCH: [Role; 6] = [Role::Fx, Role::Fy, Role::Fz, Role::Tx, Role::Ty, Role::Tz];
-const SIGMA: [Role; 3] = [Role::SigmaF0x, Role::SigmaF0y, Role::SigmaM0z];
-const SYSTEMATIC: [Role; 3] = [Role::SystematicF0x, Role::SystematicF0y, Role::SystematicM0z];
-const ACROSS: [Role; 3] = [Role::F0z, Role::M0x, Role::M0y];
+pub(super) const SIGMA: [Role; 3] = [Role::SigmaF0x, Role::SigmaF0y, Role::SigmaM0z];
+pub(super) const SYSTEMATIC: [Role; 3] = [Role::SystematicF0x, Role::SystematicF0y, Role::SystematicM0z];
+pub(super) const ACROSS: [Role; 3] = [Role::F0z, Role::M0x, Role::M0y];
 
 /// The raw sample of a row; where its own time or quality are not there, those of the sample.
 fn raw(row: &Row<'_>, columns: &Columns, t: Option<f64>, quality: Quality) -> Result<RawSample, RowProblem> {
@@ -62,8 +65,15 @@ fn raw(row: &Row<'_>, columns: &Columns, t: Option<f64>, quality: Quality) -> Re
 
 impl Recorded for RawSample {
     const NEEDED: &'static [Role] = &[];
-    const WELCOME: &'static [Role] =
-        &[Role::Time, Role::HostTime, Role::DeviceTime, Role::Sequence, Role::Status, Role::Temperature, Role::Quality];
+    const WELCOME: &'static [&'static [Role]] = &[&[
+        Role::Time,
+        Role::HostTime,
+        Role::DeviceTime,
+        Role::Sequence,
+        Role::Status,
+        Role::Temperature,
+        Role::Quality,
+    ]];
     const CHANNELS: bool = true;
 
     fn from_row(row: &Row<'_>, columns: &Columns) -> Result<Self, RowProblem> {
@@ -78,15 +88,7 @@ impl Recorded for RawSample {
 
 impl Recorded for WrenchSample {
     const NEEDED: &'static [Role] = &[Role::Time, Role::Fx, Role::Fy, Role::Fz, Role::Tx, Role::Ty, Role::Tz];
-    const WELCOME: &'static [Role] = &[
-        Role::Quality,
-        Role::HostTime,
-        Role::DeviceTime,
-        Role::Sequence,
-        Role::Status,
-        Role::Temperature,
-        Role::RawQuality,
-    ];
+    const WELCOME: &'static [&'static [Role]] = &[&[Role::Quality], &RAW];
 
     fn from_row(row: &Row<'_>, columns: &Columns) -> Result<Self, RowProblem> {
         let t = columns.needed(row, Role::Time)?;
@@ -106,24 +108,7 @@ impl Recorded for WrenchSample {
 
 impl Recorded for ReactionSample {
     const NEEDED: &'static [Role] = &[Role::Time, Role::X0, Role::Y0, Role::Phi0, Role::F0x, Role::F0y, Role::M0z];
-    const WELCOME: &'static [Role] = &[
-        Role::SigmaF0x,
-        Role::SigmaF0y,
-        Role::SigmaM0z,
-        Role::SystematicF0x,
-        Role::SystematicF0y,
-        Role::SystematicM0z,
-        Role::F0z,
-        Role::M0x,
-        Role::M0y,
-        Role::Quality,
-        Role::HostTime,
-        Role::DeviceTime,
-        Role::Sequence,
-        Role::Status,
-        Role::Temperature,
-        Role::RawQuality,
-    ];
+    const WELCOME: &'static [&'static [Role]] = &[&SIGMA, &SYSTEMATIC, &ACROSS, &[Role::Quality], &RAW];
 
     fn from_row(row: &Row<'_>, columns: &Columns) -> Result<Self, RowProblem> {
         let need = |role| columns.needed(row, role);

@@ -1,5 +1,6 @@
 //! Reactions written as they come, in what the reader reads.
 
+use super::recorded::{ACROSS, RAW, SIGMA, SYSTEMATIC};
 use super::role::{Role, si};
 use super::table::Table;
 use crate::link::LinkCounters;
@@ -119,11 +120,6 @@ impl<W: Write> Recorder<W> {
         Ok(())
     }
 
-    /// Samples written.
-    pub fn samples(&self) -> u64 {
-        self.samples
-    }
-
     /// Writes what is at the end, perhaps what came over the link, and hands back where it was written to, flushed. Without it
     /// a recording is as readable, but does not tell that it is whole.
     ///
@@ -153,18 +149,17 @@ impl Table {
 fn roles(contents: &Contents) -> Vec<Role> {
     let mut roles = vec![Role::Time, Role::X0, Role::Y0, Role::Phi0, Role::F0x, Role::F0y, Role::M0z];
     if contents.sigma {
-        roles.extend([Role::SigmaF0x, Role::SigmaF0y, Role::SigmaM0z]);
+        roles.extend(SIGMA);
     }
     if contents.systematic {
-        roles.extend([Role::SystematicF0x, Role::SystematicF0y, Role::SystematicM0z]);
+        roles.extend(SYSTEMATIC);
     }
     if contents.out_of_plane {
-        roles.extend([Role::F0z, Role::M0x, Role::M0y]);
+        roles.extend(ACROSS);
     }
     roles.push(Role::Quality);
     if contents.raw.is_some() {
-        let raw = [Role::HostTime, Role::DeviceTime, Role::Sequence, Role::Status, Role::Temperature, Role::RawQuality];
-        roles.extend(raw);
+        roles.extend(RAW);
     }
     roles
 }

@@ -35,10 +35,11 @@ impl Table {
         &'t self,
         map: &ColumnMap,
     ) -> Result<impl Iterator<Item = Result<S, RowFault>> + use<'t, S>, TableError> {
-        let mut columns = map.find(self, S::NEEDED, S::WELCOME)?;
+        let welcome = S::WELCOME.concat();
+        let mut columns = map.find(self, S::NEEDED, &welcome)?;
         let has_time = [Role::Time, Role::HostTime, Role::DeviceTime].iter().any(|role| columns.has(*role));
         if S::NEEDED.is_empty() && !has_time {
-            columns = map.find(self, &[Role::Time], S::WELCOME)?;
+            columns = map.find(self, &[Role::Time], &welcome)?;
         }
         if S::CHANNELS && columns.channels.is_empty() {
             return Err(of(self, TableProblem::NoChannels { found: found(self) }));

@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// let text = "Scan 3 of the parabola\r\n\r\nt [s];Fx [mN];note\r\n0,0;1,5;start\r\n0,1;;\r\n0,2;2,\r\n";
 /// let table = Table::parse("scan.csv", text.as_bytes(), &TableOptions::default())?;
 /// assert_eq!((table.columns()[1].name.as_str(), table.columns()[1].unit.as_deref()), ("Fx", Some("mN")));
-/// let first = table.row(0).ok_or("no row")?;
+/// let first = table.rows().nth(0).ok_or("no row")?;
 /// assert_eq!((first.line(), first.cell(1), first.cell(2)), (4, Cell::Number(1.5), Cell::Text("start")));
 /// let problems: Vec<String> = table.rows().filter_map(|row| row.number(1).err()).map(|p| p.to_string()).collect();
 /// assert_eq!(problems, ["Fx is empty, expected a number", "the number of cells is 2, expected 3"]);
@@ -128,11 +128,6 @@ impl Table {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.heads.is_empty()
-    }
-
-    /// A row, from 0.
-    pub fn row(&self, index: usize) -> Option<Row<'_>> {
-        self.heads.get(index).map(|head| Row { table: self, head: *head })
     }
 
     /// All rows.

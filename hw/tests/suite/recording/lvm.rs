@@ -128,7 +128,7 @@ fn empty_fields_and_other_separators() {
         let table = parse(&text);
         let names: Vec<&str> = named(&table).into_iter().map(|(name, _)| name).collect();
         assert_eq!(names, ["X_Value", "Dev0/Ai0", "Untitled", "Dev0/Ai0 1", "Comment"]);
-        let cells: Vec<Cell<'_>> = (0..5).map(|at| table.row(1).unwrap().cell(at)).collect();
+        let cells: Vec<Cell<'_>> = (0..5).map(|at| table.rows().nth(1).unwrap().cell(at)).collect();
         let number = Cell::Number;
         assert_eq!(cells, [number(0.001), number(-0.009206), Cell::Empty, number(7.5), Cell::Text("OK")]);
         let faults: Vec<String> = table.faults().map(|fault| fault.to_string()).collect();
@@ -176,7 +176,7 @@ fn the_samples_of_lvm_read() {
         let table = Table::read(&directory.join(format!("lvm-{file}.lvm")), &TableOptions::default()).unwrap();
         assert_eq!((table.len(), table.faults().count()), (rows, 0), "{file}");
         for (row, expected) in [(0, first), (rows - 1, last)] {
-            let row = table.row(row).unwrap();
+            let row = table.rows().nth(row).unwrap();
             let found: Vec<f64> = (0..expected.len()).map(|at| row.number(at).unwrap()).collect();
             assert_eq!(found, expected, "{file}");
         }

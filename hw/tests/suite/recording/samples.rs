@@ -244,7 +244,6 @@ fn what_is_not_in_the_contents_is_left_out() {
     let one = ReactionSample { raw: RawSample::new(0.0, Channels::from([1.0])), ..sample };
     let message = recorder.write(&one).unwrap_err().to_string();
     assert_eq!(message, "the sample has 1 channels, expected 2 as in the contents of the recording");
-    assert_eq!(recorder.samples(), 0);
     let empty = recorder.finish(None).unwrap();
     let expected = "# vibrissa recording 1\n\
         # units: t s, x0 m, y0 m, phi0 rad, f0x N, f0y N, m0z N m, host_time s, device_time s, temperature degC\n\

@@ -94,7 +94,7 @@ fn preambles() {
     // a line of text between rows is no header
     let table = parse("t,Fx\n0,1\ngain,changed\n1,1\n2,2\n");
     assert_eq!((names(&table), table.len()), (vec!["t", "Fx"], 4));
-    assert_eq!(table.row(1).unwrap().cell(0), Cell::Text("gain"));
+    assert_eq!(table.rows().nth(1).unwrap().cell(0), Cell::Text("gain"));
     let table = parse("# made: by hand, \"quoted\n# 5, 6\nt,Fx\n0,1\n# end: here\n");
     assert_eq!((names(&table), numbers(&table)), (vec!["t", "Fx"], vec![vec![0.0, 1.0]]));
     assert_eq!((table.note("made"), table.note("end")), (Some("by hand, \"quoted"), Some("here")));
@@ -103,7 +103,7 @@ fn preambles() {
 #[test]
 fn cells_that_are_no_numbers() {
     let table = parse("t,Fx,note\n0,,start\n1,NaN,\n2,inf,a\n3,?,a\n4,N/A,\"b, c\"\n");
-    let row = |i| table.row(i).unwrap();
+    let row = |i| table.rows().nth(i).unwrap();
     let problem = |row: Row<'_>| row.number(1).unwrap_err().to_string();
     assert_eq!(problem(row(0)), "Fx is empty, expected a number");
     assert_eq!(problem(row(1)), "Fx is NaN, expected a finite number");
@@ -131,7 +131,7 @@ fn rows_of_another_length_and_a_cut_file() {
     // a quote that is not closed spoils one row
     let table = parse("t,Fx,Fy\n0,\"1,2\n1,1,2\n");
     assert_eq!(table.faults().count(), 1);
-    assert_eq!(table.row(1).unwrap().number(2), Ok(2.0));
+    assert_eq!(table.rows().nth(1).unwrap().number(2), Ok(2.0));
 }
 
 #[test]

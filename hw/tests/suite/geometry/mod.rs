@@ -1,3 +1,0 @@
-//! Lever arms.
-
-mod lever_arm;
