@@ -353,22 +353,22 @@ def by_way(name: str, noise: float, of_frame: list[Case], force: Array) -> str:
 
 
 def within(of_frame: list[Case], table: npt.NDArray[np.void]) -> str:
-    """Shares of errors within 1, 2, 3 standard deviations of arc length, force and moment, where the verdict is told."""
-    told = table["verdict"] == "told"
+    """Shares of errors within 1, 2, 3 standard deviations of arc length, force and moment, where the verdict is determined."""
+    determined = table["verdict"] == "determined"
     cells = []
     for column, which in (("s", "s"), ("force", "force"), ("m0z", "moment")):
         true = np.array([getattr(one, which) for one in of_frame])
-        error, sigma = abs(table[column] - true)[told], table[f"sigma_{column}"][told]
+        error, sigma = abs(table[column] - true)[determined], table[f"sigma_{column}"][determined]
         cells.append(" / ".join(f"{100.0 * np.mean(error <= n * sigma):.0f}" for n in (1, 2, 3)))
     return " | ".join(cells)
 
 
 def verdict_row(name: str, noise: float, of_frame: list[Case], table: npt.NDArray[np.void]) -> str:
     names, counts = np.unique(table["verdict"], return_counts=True)
-    others = ", ".join(f"{verdict} {100.0 * n / len(table):.3g}" for verdict, n in zip(names, counts, strict=True) if verdict != "told")
+    others = ", ".join(f"{verdict} {100.0 * n / len(table):.3g}" for verdict, n in zip(names, counts, strict=True) if verdict != "determined")
     place = percent(abs(table["s"] - np.array([one.s for one in of_frame])) / LENGTH)
     coverage = within(of_frame, table) if noise > 0.0 else "- | - | -"
-    return f"| {name} | {noise:g} | {100.0 * np.mean(table['verdict'] == 'told'):.3g} | {others or '-'} | {place} | {coverage} |"
+    return f"| {name} | {noise:g} | {100.0 * np.mean(table['verdict'] == 'determined'):.3g} | {others or '-'} | {place} | {coverage} |"
 
 
 def cone() -> str:
@@ -427,7 +427,7 @@ def main() -> None:
     heads = " | ".join(f"{100.0 * part:g} % of way: median | 90 %" for part in PARTS_OF_WAY)
     print(f"\nError of force, %:\n\n| way | noise / L | {heads} |\n|{'---|' * (2 + 2 * len(PARTS_OF_WAY))}")
     print("\n".join(parts))
-    print("\n| way | noise / L | told, % | other verdicts, % | error of place, % of L: median | 90 % | s within 1 / 2 / 3 sigma, % | force | m0z |")
+    print("\n| way | noise / L | determined, % | other verdicts, % | error of place, % of L: median | 90 % | s within 1 / 2 / 3 sigma, % | force | m0z |")
     print("|---|---|---|---|---|---|---|---|---|")
     print("\n".join(verdicts))
     print(f"\n{cone()}")

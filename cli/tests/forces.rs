@@ -57,7 +57,7 @@ fn place_and_force_come_from_points() {
     assert!(output.status.success(), "{}", complaint(&output));
     let found = lines(&path.join("out/frames/forces.jsonl"));
     let number = |key: &str| found[0][key].as_f64().unwrap();
-    assert_eq!((found[0]["verdict"].as_str(), found[1]["verdict"].as_str()), (Some("told"), Some("free")));
+    assert_eq!((found[0]["verdict"].as_str(), found[1]["verdict"].as_str()), (Some("determined"), Some("free")));
     // 4 E I / L^2 = 4e-4 N at 0.06 m, pushing along -y at slope 0
     assert!((number("s") - 0.06).abs() < 1e-6 && (number("force") - 4e-4).abs() < 1e-8, "{}", found[0]);
     assert!((found[0]["contacts"][0]["fy"].as_f64().unwrap() + 4e-4).abs() < 1e-8);
@@ -164,17 +164,17 @@ fn a_sensor_is_mounted() {
     let row = format!("{x0:?},{y0:?},{phi0:?},{fx:?},{fy:?},0,{torque:?}");
     fs::write(path.join("felt.csv"), format!("x0,y0,phi0,Fx,Fy,Fz,Tz\n{row}\n")).unwrap();
     fs::write(path.join("setup.toml"), "[mounting]\nangle = 30.0\nlever = [0.003, 0.012, 0.0]\n").unwrap();
-    let told = |arguments: &[&str]| {
+    let judged = |arguments: &[&str]| {
         let output = vibrissa(path, &[&["forces", "felt.csv", "--rod", "rod.toml"], arguments].concat());
         (lines(&path.join("out/felt/forces.jsonl")).remove(0), complaint(&output))
     };
-    let (found, said) = told(&["--setup", "setup.toml"]);
+    let (found, said) = judged(&["--setup", "setup.toml"]);
     let of = |key: &str| found[key].as_f64().unwrap();
-    assert_eq!(found["verdict"], "told", "{found} {said}");
+    assert_eq!(found["verdict"], "determined", "{found} {said}");
     assert!((of("s") - 0.06).abs() < 1e-5 && (of("force") - 4e-4).abs() < 1e-7, "{found}");
     // taken as if it sat at the base, it is another contact or none
-    let (found, _) = told(&[]);
-    assert!(found["verdict"] != "told" || (found["force"].as_f64().unwrap() - 4e-4).abs() > 1e-5, "{found}");
+    let (found, _) = judged(&[]);
+    assert!(found["verdict"] != "determined" || (found["force"].as_f64().unwrap() - 4e-4).abs() > 1e-5, "{found}");
     // it turns with the clamp, whose angle now is not known
     fs::write(path.join("setup.toml"), "[mounting]\nturns_from = 90.0\n").unwrap();
     fs::write(path.join("felt.csv"), "x0,Fx\n0,1\n").unwrap();
@@ -202,20 +202,20 @@ fn a_part_of_the_base_signal_tells_what_it_tells() {
     for (columns, row, verdict) in [
         ("f0x,m0z", format!("{along:?},{moment:?}"), "family"),
         ("m0z", format!("{moment:?}"), "family"),
-        ("f0x,f0y,m0z", format!("{along:?},{across:?},{moment:?}"), "told"),
+        ("f0x,f0y,m0z", format!("{along:?},{across:?},{moment:?}"), "determined"),
     ] {
         fs::write(path.join("part.csv"), format!("x0,y0,phi0,{columns}\n0,0,0,{row}\n")).unwrap();
         let output = vibrissa(path, &["forces", "part.csv", "--rod", "rod.toml"]);
-        let told = lines(&path.join("out/part/forces.jsonl")).remove(0);
-        assert_eq!(told["verdict"], verdict, "{columns}: {told} {}", complaint(&output));
+        let judged = lines(&path.join("out/part/forces.jsonl")).remove(0);
+        assert_eq!(judged["verdict"], verdict, "{columns}: {judged} {}", complaint(&output));
         if verdict == "family" {
             // the true contact is a member: the force at 0.6 L is 4 E I / L^2
-            let members = told["family"].as_array().unwrap();
+            let members = judged["family"].as_array().unwrap();
             let near = members.iter().find(|member| (member["s"].as_f64().unwrap() - 0.06).abs() < 1e-9).unwrap();
             assert!((near["force"].as_f64().unwrap() - 4e-4).abs() < 4e-6, "{near}");
-            assert!(told["sigma_force"].is_null() || told["sigma_force"].as_f64().unwrap() > 1e-3, "{told}");
+            assert!(judged["sigma_force"].is_null() || judged["sigma_force"].as_f64().unwrap() > 1e-3, "{judged}");
         } else {
-            assert!((told["s"].as_f64().unwrap() - 0.06).abs() < 1e-5, "{told}");
+            assert!((judged["s"].as_f64().unwrap() - 0.06).abs() < 1e-5, "{judged}");
         }
     }
 }
@@ -318,7 +318,7 @@ fn a_setup_without_numbers_of_a_sensor_is_refused() {
     fs::write(path.join("frames.csv"), table(&[points(40)])).unwrap();
     fs::write(path.join("part.csv"), "frame,m0z\n0,-0.1\n").unwrap();
     fs::write(path.join("felt.csv"), "frame,Tz\n0,-0.1\n").unwrap();
-    let told = |arguments: &[&str]| {
+    let judged = |arguments: &[&str]| {
         let output =
             vibrissa(path, &[&["forces"], arguments, &["--rod", "rod.toml", "--setup", "setup.toml"]].concat());
         (output.status.code(), complaint(&output))
@@ -328,12 +328,12 @@ fn a_setup_without_numbers_of_a_sensor_is_refused() {
         (&["part.csv"], "part.csv"),
         (&["frames.csv", "--channels", "part.csv"], "part.csv"),
     ] {
-        let (status, said) = told(arguments);
+        let (status, said) = judged(arguments);
         let expected = format!(
             "{file}:1: no column of Fx, Fy, Fz, Tx, Ty, Tz, so that the mounting of the sensor (--setup) has no effect"
         );
         assert!(status == Some(2) && said.contains(&expected), "{arguments:?}: {said}");
     }
-    let (_, said) = told(&["frames.csv", "--channels", "felt.csv"]);
+    let (_, said) = judged(&["frames.csv", "--channels", "felt.csv"]);
     assert!(!said.contains("--setup"), "{said}");
 }

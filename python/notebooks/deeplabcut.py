@@ -86,7 +86,7 @@ print(*[line[:78] for line in (folder / "film.csv").read_text().splitlines()[:5]
 # is in m, with y up.
 #
 # The first point of a frame must be the base, because the arc length counts from there. If the base is lost, the second point takes its place,
-# and the forces are wrong by half their size and more, while their verdict is still `told`. So leave out frames without a base. A file read
+# and the forces are wrong by half their size and more, while their verdict is still `determined`. So leave out frames without a base. A file read
 # with the first two body parts alone keeps the frames that show both of them, so a lost second point costs the frame, too.
 
 
@@ -180,13 +180,13 @@ true = {
     "force": np.array([state.contacts[0].force if state.contacts else 0.0 for state in states]),
     "s": np.array([state.contacts[0].s if state.contacts else math.nan for state in states]),
 }
-is_told = table["verdict"] == "told"
+is_determined = table["verdict"] == "determined"
 figure, axes = plt.subplots(3, 1, figsize=(7, 8), sharex=True, layout="constrained")
 labels = {"m0z": ("moment at the base in uN m", 1e6), "force": ("force of the peg in uN", 1e6), "s": ("place of the contact in mm", 1e3)}
 for ax, (name, (label, factor)) in zip(axes, labels.items()):
     ax.plot(factor * true[name], "k-", linewidth=1.0, label="true")
-    told = table[is_told]
-    ax.errorbar(told["frame"], factor * told[name], 2.0 * factor * told[f"sigma_{name}"], fmt=".", capsize=2.0, label="told")
+    determined = table[is_determined]
+    ax.errorbar(determined["frame"], factor * determined[name], 2.0 * factor * determined[f"sigma_{name}"], fmt=".", capsize=2.0, label="determined")
     if name != "s":
         untouched = table["frame"][table["verdict"] == "free"]
         ax.plot(untouched, np.zeros(len(untouched)), "o", markerfacecolor="none", label="free")
@@ -201,10 +201,10 @@ axes[-1].set_xlim(first_contact - 5.0, None)
 # %%
 floors = {"m0z": 5e-9, "force": 5e-7}  # N m, N
 for name, floor in floors.items():
-    off = np.abs(table[name] - true[name][table["frame"]])[is_told]
-    deviations = table[f"sigma_{name}"][is_told]
+    off = np.abs(table[name] - true[name][table["frame"]])[is_determined]
+    deviations = table[f"sigma_{name}"][is_determined]
     assert (off < 4.0 * deviations + floor).all(), name
-    print(f"{name}: {is_told.sum()} frames, at most {(off / deviations).max():.1f} standard deviations off")
+    print(f"{name}: {is_determined.sum()} frames, at most {(off / deviations).max():.1f} standard deviations off")
 
 # %% [markdown]
 # ## Verdicts
@@ -212,15 +212,15 @@ for name, floor in floors.items():
 # The verdict says how much a frame tells.
 #
 # - `free`: no force beyond the noise. The whisker may still be touched lightly.
-# - `told`: contact, force, and force and moment at the base are determined.
-# - `rough`: there is a contact, but its place is known to no better than a tenth of the length, or its force to no better than half of it.
+# - `determined`: contact, force, and force and moment at the base are determined.
+# - `uncertain`: there is a contact, but its place is known to no better than a tenth of the length, or its force to no better than half of it.
 #   The moment at the base may be known well.
-# - `family`: place and force are not told apart. A weak force far out bends the whisker as a strong one nearby does.
+# - `family`: place and force are not determined separately. A weak force far out bends the whisker as a strong one nearby does.
 # - `several`: other contacts explain the frame as well. `found.contacts` lists them as explanations 1, 2, ...
 # - `not explained`: no shape with up to two contacts fits (probability below 0.001): a point that was tracked on something else, another
 #   whisker, a wrong stiffness profile. `fault`: the points cannot be used at all; `found.faults` says why.
 #
-# Use `told`. Use the moment of `rough` with its standard deviation. Look at the film where it says anything else.
+# Use `determined`. Use the moment of `uncertain` with its standard deviation. Look at the film where it says anything else.
 #
 # ## How many points?
 #
@@ -250,7 +250,7 @@ figure, axes = plt.subplots(2, 1, figsize=(7, 6.5), sharex=True, layout="constra
 for title, result in films.items():
     rows = result.frames
     verdicts = Counter(rows["verdict"].tolist())
-    rows = rows[rows["verdict"] == "told"]
+    rows = rows[rows["verdict"] == "determined"]
     print(
         f"{title:21s} sigma of m0z {1e9 * np.median(rows['sigma_m0z']):4.1f} nN m, of the force {1e6 * np.median(rows['sigma_force']):.2f} uN, "
         f"of s {1e3 * np.median(rows['sigma_s']):.2f} mm (medians);",

@@ -15,48 +15,48 @@ use vibrissa::reconstruct::{
 /// A frame with its number.
 type FrameRow = (i64, Result<FrameForces, FrameFault>);
 
-/// A number of a frame that is told.
+/// A number of a frame that was judged.
 fn of(row: &FrameRow, number: impl Fn(&FrameForces) -> f64) -> f64 {
     row.1.as_ref().map_or(f64::NAN, number)
 }
 
 /// The same of its first contact.
 fn first(row: &FrameRow, number: impl Fn(&FrameContact) -> f64) -> f64 {
-    of(row, |told| told.contacts.first().map_or(f64::NAN, &number))
+    of(row, |judged| judged.contacts.first().map_or(f64::NAN, &number))
 }
 
 fn sigma(row: &FrameRow, k: usize) -> f64 {
-    of(row, |told| told.covariance[k][k].max(0.0).sqrt())
+    of(row, |judged| judged.covariance[k][k].max(0.0).sqrt())
 }
 
 const FRAME: &[Column<FrameRow>] = &[
     Column { name: "frame", get: Get::Int(|row| row.0) },
     Column {
         name: "verdict",
-        get: Get::Text(|row| row.1.as_ref().map_or_else(|_| "fault".into(), |told| told.verdict.to_string().into())),
+        get: Get::Text(|row| row.1.as_ref().map_or_else(|_| "fault".into(), |judged| judged.verdict.to_string().into())),
     },
-    Column { name: "contacts", get: Get::Int(|row| row.1.as_ref().map_or(0, |told| told.contacts.len() as i64)) },
+    Column { name: "contacts", get: Get::Int(|row| row.1.as_ref().map_or(0, |judged| judged.contacts.len() as i64)) },
     Column { name: "s", get: Get::Float(|row| first(row, |contact| contact.s)) },
     Column { name: "x", get: Get::Float(|row| first(row, |contact| contact.x)) },
     Column { name: "y", get: Get::Float(|row| first(row, |contact| contact.y)) },
     Column { name: "force", get: Get::Float(|row| first(row, |contact| contact.force)) },
     Column { name: "sigma_s", get: Get::Float(|row| first(row, |contact| contact.sigmas()[0])) },
     Column { name: "sigma_force", get: Get::Float(|row| first(row, |contact| contact.sigma_force)) },
-    Column { name: "f0x", get: Get::Float(|row| of(row, |told| told.reactions.f0x)) },
-    Column { name: "f0y", get: Get::Float(|row| of(row, |told| told.reactions.f0y)) },
-    Column { name: "m0z", get: Get::Float(|row| of(row, |told| told.reactions.m0z)) },
+    Column { name: "f0x", get: Get::Float(|row| of(row, |judged| judged.reactions.f0x)) },
+    Column { name: "f0y", get: Get::Float(|row| of(row, |judged| judged.reactions.f0y)) },
+    Column { name: "m0z", get: Get::Float(|row| of(row, |judged| judged.reactions.m0z)) },
     Column { name: "sigma_f0x", get: Get::Float(|row| sigma(row, 3)) },
     Column { name: "sigma_f0y", get: Get::Float(|row| sigma(row, 4)) },
     Column { name: "sigma_m0z", get: Get::Float(|row| sigma(row, 5)) },
-    Column { name: "x0", get: Get::Float(|row| of(row, |told| told.base.x)) },
-    Column { name: "y0", get: Get::Float(|row| of(row, |told| told.base.y)) },
-    Column { name: "phi0", get: Get::Float(|row| of(row, |told| told.base.phi)) },
-    Column { name: "chi2", get: Get::Float(|row| of(row, |told| told.chi_squared)) },
-    Column { name: "freedom", get: Get::Int(|row| row.1.as_ref().map_or(0, |told| told.freedom as i64)) },
-    Column { name: "p_value", get: Get::Float(|row| of(row, |told| told.p_value)) },
+    Column { name: "x0", get: Get::Float(|row| of(row, |judged| judged.base.x)) },
+    Column { name: "y0", get: Get::Float(|row| of(row, |judged| judged.base.y)) },
+    Column { name: "phi0", get: Get::Float(|row| of(row, |judged| judged.base.phi)) },
+    Column { name: "chi2", get: Get::Float(|row| of(row, |judged| judged.chi_squared)) },
+    Column { name: "freedom", get: Get::Int(|row| row.1.as_ref().map_or(0, |judged| judged.freedom as i64)) },
+    Column { name: "p_value", get: Get::Float(|row| of(row, |judged| judged.p_value)) },
     Column {
         name: "shortening",
-        get: Get::Float(|row| of(row, |told| told.shortening.map_or(f64::NAN, |(share, _)| share))),
+        get: Get::Float(|row| of(row, |judged| judged.shortening.map_or(f64::NAN, |(share, _)| share))),
     },
 ];
 
@@ -104,22 +104,22 @@ impl PyForces {
         self.found.frames.iter().map(|(number, _)| *number).zip(&self.found.film.frames)
     }
 
-    fn told(&self) -> impl Iterator<Item = (i64, &FrameForces)> {
-        self.rows().filter_map(|(number, told)| Some((number, told.as_ref().ok()?)))
+    fn judged(&self) -> impl Iterator<Item = (i64, &FrameForces)> {
+        self.rows().filter_map(|(number, judged)| Some((number, judged.as_ref().ok()?)))
     }
 }
 
 #[pymethods]
 impl PyForces {
-    /// Structured, one row a frame: ``frame``; ``verdict`` (``"free"``, ``"told"``, ``"rough"``: place and force are known roughly only,
-    /// ``"family"``: they are not told apart, ``"several"``: other contacts explain the frame too, ``"not explained"``, or ``"fault"``);
+    /// Structured, one row a frame: ``frame``; ``verdict`` (``"free"``, ``"determined"``, ``"uncertain"``: place and force are known roughly only,
+    /// ``"family"``: they are not determined separately, ``"several"``: other contacts explain the frame too, ``"not explained"``, or ``"fault"``);
     /// number of ``contacts``; of the one next to the base ``s``, ``x``, ``y`` (m), ``force`` (N), ``sigma_s``, ``sigma_force``; ``f0x``, ``f0y``
     /// (N), ``m0z`` (N m) and their standard deviations; the base ``x0``, ``y0`` (m), ``phi0`` (rad); ``chi2``, ``freedom``, ``p_value``;
     /// ``shortening``, the share by which a rod of which both ends are seen looks too short. NaN where there is no number, infinite
     /// standard deviations where the frame does not determine it.
     #[getter]
     fn frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let rows: Vec<FrameRow> = self.rows().map(|(number, told)| (number, told.clone())).collect();
+        let rows: Vec<FrameRow> = self.rows().map(|(number, judged)| (number, judged.clone())).collect();
         structured(py, FRAME, rows.iter())
     }
 
@@ -128,8 +128,8 @@ impl PyForces {
     #[getter]
     fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let mut rows: Vec<ContactRow> = Vec::new();
-        for (frame, told) in self.told() {
-            for (number, contacts) in std::iter::once(&told.contacts).chain(&told.rivals).enumerate() {
+        for (frame, judged) in self.judged() {
+            for (number, contacts) in std::iter::once(&judged.contacts).chain(&judged.rivals).enumerate() {
                 rows.extend(contacts.iter().enumerate().map(|(k, contact)| (frame, number, k, *contact)));
             }
         }
@@ -141,7 +141,7 @@ impl PyForces {
     #[getter]
     fn family<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let rows: Vec<MemberRow> =
-            self.told().flat_map(|(frame, told)| told.family.iter().map(move |member| (frame, *member))).collect();
+            self.judged().flat_map(|(frame, judged)| judged.family.iter().map(move |member| (frame, *member))).collect();
         structured(py, MEMBER, rows.iter())
     }
 
@@ -150,7 +150,7 @@ impl PyForces {
     fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let none = [[f64::NAN; 6]; 6];
         let all: Vec<f64> =
-            self.rows().flat_map(|(_, told)| told.as_ref().map_or(none, |told| told.covariance)).flatten().collect();
+            self.rows().flat_map(|(_, judged)| judged.as_ref().map_or(none, |judged| judged.covariance)).flatten().collect();
         Ok(PyArray1::from_vec(py, all).reshape([self.found.frames.len(), 6, 6])?.into_any())
     }
 
@@ -160,12 +160,12 @@ impl PyForces {
         self.found.film.sigma
     }
 
-    /// Why nothing is told of a frame, by its number.
+    /// Why a frame gives nothing, by its number.
     #[getter]
     fn faults<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let faults = PyDict::new(py);
-        for (number, told) in self.rows() {
-            if let Err(fault) = told {
+        for (number, judged) in self.rows() {
+            if let Err(fault) = judged {
                 faults.set_item(number, fault.to_string())?;
             }
         }
@@ -201,17 +201,17 @@ impl PyForces {
     fn pole<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(pole) = &self.found.film.pole else { return Ok(None) };
         let numbers = |all: &[usize]| all.iter().map(|index| self.found.frames[*index].0).collect::<Vec<i64>>();
-        let told = PyDict::new(py);
-        told.set_item("center", pole.center)?;
-        told.set_item("radius", pole.radius)?;
+        let judged = PyDict::new(py);
+        judged.set_item("center", pole.center)?;
+        judged.set_item("radius", pole.radius)?;
         let covariance = PyArray1::from_vec(py, pole.covariance.concat()).reshape([3, 3])?;
-        told.set_item("covariance", covariance)?;
-        told.set_item("chi2", pole.chi_squared)?;
-        told.set_item("freedom", pole.freedom)?;
-        told.set_item("p_value", pole.p_value)?;
-        told.set_item("frames", numbers(&pole.frames))?;
-        told.set_item("elsewhere", numbers(&pole.elsewhere))?;
-        Ok(Some(told))
+        judged.set_item("covariance", covariance)?;
+        judged.set_item("chi2", pole.chi_squared)?;
+        judged.set_item("freedom", pole.freedom)?;
+        judged.set_item("p_value", pole.p_value)?;
+        judged.set_item("frames", numbers(&pole.frames))?;
+        judged.set_item("elsewhere", numbers(&pole.elsewhere))?;
+        Ok(Some(judged))
     }
 
     fn __len__(&self) -> usize {

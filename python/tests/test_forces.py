@@ -32,8 +32,8 @@ def test_states_of_a_sweep_are_found_again() -> None:
     table = found.frames
     for state, row in zip(states, table, strict=True):
         contact = state.contacts[0]
-        assert row["verdict"] in ("told", "several")
-        if row["verdict"] == "told":
+        assert row["verdict"] in ("determined", "several")
+        if row["verdict"] == "determined":
             assert abs(row["s"] - contact.s) < 1e-8 and abs(row["force"] - contact.force) < 1e-9
         assert abs(row["m0z"] - state.reactions[2]) < 1e-11
     assert found.covariance.shape == (len(states), 6, 6)
@@ -45,7 +45,7 @@ def test_channels_alone_and_what_they_cannot_tell() -> None:
     x0, y0, phi0 = np.array([state.pose for state in states]).T
     f0x, f0y, m0z = np.array([state.reactions for state in states]).T
     whole = vibrissa.forces(ROD, channels={"x0": x0, "y0": y0, "phi0": phi0, "f0x": f0x, "f0y": f0y, "m0z": m0z})
-    assert (whole.frames["verdict"] == "told").all()
+    assert (whole.frames["verdict"] == "determined").all()
     assert np.allclose(whole.frames["s"], [state.contacts[0].s for state in states], atol=1e-6)
     moment = vibrissa.forces(ROD, channels={"x0": x0, "y0": y0, "phi0": phi0, "m0z": m0z})
     assert (moment.frames["verdict"] == "family").all()
@@ -62,7 +62,7 @@ def test_markers_tell_as_points_do() -> None:
         columns |= {f"x@{place}": x[k], f"y@{place}": y[k], f"phi@{place}": phi[k]}
         columns |= {f"sigma_{name}@{place}": np.full(len(states), 1e-6) for name in ("x", "y", "phi")}
     found = vibrissa.forces(ROD, channels=columns).frames
-    assert (found["verdict"] == "told").sum() > len(states) / 2
+    assert (found["verdict"] == "determined").sum() > len(states) / 2
     assert np.allclose(found["m0z"], [state.reactions[2] for state in states], rtol=1e-3, atol=1e-9)
     assert np.allclose(found["s"], [state.contacts[0].s for state in states], atol=1e-5)
 
@@ -76,7 +76,7 @@ def test_a_sensor_is_mounted(tmp_path: Path) -> None:
     setup = tmp_path / "setup.toml"
     setup.write_text("[mounting]\nangle = 90.0\nlever = [0.0, 0.012, 0.0]\n")
     found = vibrissa.forces(ROD, channels=columns, setup=setup)
-    assert (found.frames["verdict"] == "told").all()
+    assert (found.frames["verdict"] == "determined").all()
     assert np.allclose(found.frames["s"], [state.contacts[0].s for state in states], atol=1e-6)
     with pytest.raises(FileNotFoundError):
         vibrissa.forces(ROD, channels=columns, setup=tmp_path / "none.toml")
@@ -120,10 +120,10 @@ def test_an_end_that_was_not_seen_is_not_taken_for_one() -> None:
     lost = [np.vstack([[[np.nan, np.nan]] * 4, one[4:]]) for one in whole]
     # a uniform rod does not tell where along it the points are
     found = vibrissa.forces(ROD, lost, sigma=5e-5)
-    assert not (found.frames["verdict"] == "told").any()
+    assert not (found.frames["verdict"] == "determined").any()
     # without the gap the fifth point would be the base, and the moment that at the fifth point
     wrong = vibrissa.forces(ROD, [one[4:] for one in whole], sigma=5e-5)
-    assert (wrong.frames["verdict"] == "told").any() and any("90 % of the rod" in finding for finding in wrong.findings)
+    assert (wrong.frames["verdict"] == "determined").any() and any("90 % of the rod" in finding for finding in wrong.findings)
 
 
 def test_free_frames_of_several_shapes_are_told() -> None:
@@ -178,7 +178,7 @@ def test_a_pole_tells_places_and_forces_that_moments_alone_do_not() -> None:
     moments["sigma_m0z"] = np.full(len(states), 1e-9)
     found = vibrissa.forces(ROD, channels=moments, pole=(0.06, 0.03), pole_radius=0.004, pole_sigma=1e-6)
     assert found.pole is not None
-    told = found.frames[found.frames["verdict"] == "told"]
+    told = found.frames[found.frames["verdict"] == "determined"]
     assert len(told) > len(states) // 2
     truth = {k: state.contacts[0].force for k, state in enumerate(states)}
     for row in told:

@@ -133,14 +133,14 @@ fn exact_points_give_exact_forces() {
                 let points: Vec<[f64; 2]> = found.iter().map(|v| [v[0], v[1]]).collect();
                 let settings = ForceSettings { friction, ..ForceSettings::default() };
                 let film = forces(rod, &[Frame::from_base(&points)], &settings);
-                let told = film.frames[0].as_ref().unwrap();
-                let what = format!("rod {number}, friction {friction}, {push:?}, sigma {:e}: {told:?}", film.sigma);
-                assert_eq!(told.verdict, FrameVerdict::Told, "{what}");
-                assert_eq!(told.contacts.len(), 1, "{what}");
-                let contact = &told.contacts[0];
+                let judged = film.frames[0].as_ref().unwrap();
+                let what = format!("rod {number}, friction {friction}, {push:?}, sigma {:e}: {judged:?}", film.sigma);
+                assert_eq!(judged.verdict, FrameVerdict::Determined, "{what}");
+                assert_eq!(judged.contacts.len(), 1, "{what}");
+                let contact = &judged.contacts[0];
                 assert!((contact.s - push.s).abs() < 1e-9 * law.length, "{what}");
                 assert!((contact.force - push.force.abs()).abs() < 1e-9 * unit, "{what}");
-                assert!((told.reactions.m0z + m0).abs() < 1e-9 * rod.units().moment, "{what}");
+                assert!((judged.reactions.m0z + m0).abs() < 1e-9 * rod.units().moment, "{what}");
             }
         }
     }
@@ -172,7 +172,7 @@ struct Tally {
     within: [[usize; 3]; 3],
     worst: f64,
     wrong_count: usize,
-    told: usize,
+    determined: usize,
 }
 
 /// Noisy films of rods with one contact, judged against the truth. `friction` is that of the films and known as a limit.
@@ -192,23 +192,23 @@ fn tally(rod: &AnyRod, law: &Law, friction: f64, sigma: f64, each: usize) -> Tal
             .collect();
         let settings = ForceSettings { friction, sigma: Some(sigma * law.length), ..ForceSettings::default() };
         let film = forces(rod, &frames, &settings);
-        for told in film.frames {
-            let told = told.unwrap();
+        for judged in film.frames {
+            let judged = judged.unwrap();
             tally.frames += 1;
-            tally.chi_squared += told.chi_squared;
-            tally.freedom += told.freedom;
-            let [contact] = &told.contacts[..] else {
+            tally.chi_squared += judged.chi_squared;
+            tally.freedom += judged.freedom;
+            let [contact] = &judged.contacts[..] else {
                 tally.wrong_count += 1;
                 continue;
             };
-            if told.verdict != FrameVerdict::Told {
+            if judged.verdict != FrameVerdict::Determined {
                 continue;
             }
-            tally.told += 1;
+            tally.determined += 1;
             let off = [
                 (contact.s - push.s) / contact.sigmas()[0],
                 (contact.force - push.force.abs()) / contact.sigma_force,
-                (told.reactions.m0z + m0) / told.covariance[5][5].sqrt(),
+                (judged.reactions.m0z + m0) / judged.covariance[5][5].sqrt(),
             ];
             for (within, off) in tally.within.iter_mut().zip(off) {
                 for (k, within) in within.iter_mut().enumerate() {
@@ -228,9 +228,9 @@ fn standard_deviations_are_right() {
             let each = if friction == 0.0 { 200 } else { 40 };
             let tally = tally(rod, law, friction, 0.0005, each);
             println!("{number} {friction}: {tally:?}");
-            let Tally { frames, chi_squared, freedom, within, worst, wrong_count, told } = tally;
+            let Tally { frames, chi_squared, freedom, within, worst, wrong_count, determined } = tally;
             assert!(
-                frames == 5 * each && wrong_count <= 3 && told >= 3 * frames / 4 && worst < 6.0,
+                frames == 5 * each && wrong_count <= 3 && determined >= 3 * frames / 4 && worst < 6.0,
                 "{number} {friction}"
             );
             // two-sided band of 99 %
@@ -242,9 +242,9 @@ fn standard_deviations_are_right() {
             let least = if friction == 0.0 { [0.60, 0.92, 0.985] } else { [0.50, 0.85, 0.97] };
             for within in within {
                 for (within, least) in within.iter().zip(least) {
-                    assert!(*within as f64 >= least * told as f64, "{number} {friction} {within}");
+                    assert!(*within as f64 >= least * determined as f64, "{number} {friction} {within}");
                 }
-                assert!(friction > 0.0 || within[0] as f64 <= 0.76 * told as f64, "{number} {within:?}");
+                assert!(friction > 0.0 || within[0] as f64 <= 0.76 * determined as f64, "{number} {within:?}");
             }
         }
     }
@@ -262,7 +262,8 @@ fn free_rods_are_told_free() {
             })
             .collect();
         let film = forces(rod, &frames, &ForceSettings::default());
-        let free = film.frames.iter().filter(|told| told.as_ref().is_ok_and(|told| told.contacts.is_empty())).count();
+        let free =
+            film.frames.iter().filter(|judged| judged.as_ref().is_ok_and(|judged| judged.contacts.is_empty())).count();
         assert!(free >= 990, "{number}: {free}");
     }
 }
@@ -306,11 +307,11 @@ fn the_tip_load_of_a_cantilever_is_found_from_its_shape() {
         assert!((tip.y + across).abs() < 1e-5 && (1.0 - tip.x - along).abs() < 1e-5, "{tip:?}");
         let points: Vec<[f64; 2]> = arcs(1.0, 40).iter().map(|s| shape.at(*s)).map(|at| [at.x, at.y]).collect();
         let film = forces(&rod, &[Frame::from_base(&points)], &ForceSettings::default());
-        let told = film.frames[0].as_ref().unwrap();
-        assert_eq!((told.verdict, told.contacts.len()), (FrameVerdict::Told, 1), "{told:?}");
-        let contact = &told.contacts[0];
+        let judged = film.frames[0].as_ref().unwrap();
+        assert_eq!((judged.verdict, judged.contacts.len()), (FrameVerdict::Determined, 1), "{judged:?}");
+        let contact = &judged.contacts[0];
         assert!(contact.is_tip && (contact.fy + load).abs() < 1e-9 && contact.fx.abs() < 1e-9, "{contact:?}");
-        assert!((told.reactions.m0z - load * tip.x).abs() < 1e-9 && (told.reactions.f0y - load).abs() < 1e-9);
+        assert!((judged.reactions.m0z - load * tip.x).abs() < 1e-9 && (judged.reactions.f0y - load).abs() < 1e-9);
     }
 }
 
@@ -332,18 +333,18 @@ fn the_rotation_of_a_compliant_base_is_a_moment() {
     let base = rod.base(Pose { x: 0.0, y: 0.0, phi: 0.3 }, &rod_core::Reactions { m0z: moment, ..Default::default() });
     assert!((base.phi - (0.3 - turned)).abs() < 1e-12);
     let film = forces(&rod, &[Frame { channels, ..Frame::default() }], &ForceSettings::default());
-    let told = film.frames[0].as_ref().unwrap();
-    assert_eq!(told.verdict, FrameVerdict::Family, "{told:?}");
-    assert!((told.reactions.m0z - moment).abs() < 1e-8, "{:?}", told.reactions);
+    let judged = film.frames[0].as_ref().unwrap();
+    assert_eq!(judged.verdict, FrameVerdict::Family, "{judged:?}");
+    assert!((judged.reactions.m0z - moment).abs() < 1e-8, "{:?}", judged.reactions);
     // the force at half of the length times its lever, hardly bent
-    let near = told.family.iter().find(|member| (member.s - 0.05).abs() < 1e-9).unwrap();
+    let near = judged.family.iter().find(|member| (member.s - 0.05).abs() < 1e-9).unwrap();
     assert!((near.force - moment / 0.05).abs() < 0.02 * near.force, "{near:?}");
 }
 
 /// What is told of frames with random contacts.
 #[derive(Debug, Default)]
 struct Found {
-    told: usize,
+    determined: usize,
     as_fewer: usize,
     beyond_six_sigma: usize,
     not_explained: usize,
@@ -374,10 +375,10 @@ fn random_contacts(count: usize, noise: f64, frames: usize, random: &mut Normal)
             let film = forces(rod, &[Frame::from_base(&points)], &settings);
             let frame = film.frames[0].as_ref().unwrap();
             tally.not_explained += usize::from(frame.verdict == FrameVerdict::NotExplained);
-            if frame.verdict != FrameVerdict::Told {
+            if frame.verdict != FrameVerdict::Determined {
                 continue;
             }
-            tally.told += 1;
+            tally.determined += 1;
             if frame.contacts.len() < count {
                 tally.as_fewer += 1;
                 continue;
@@ -397,7 +398,7 @@ fn random_contacts(count: usize, noise: f64, frames: usize, random: &mut Normal)
 fn two_contacts_are_found() {
     let found = random_contacts(2, 1e-5, 15, &mut Normal(2_026));
     assert!(found.not_explained == 0 && found.beyond_six_sigma == 0, "{found:?}");
-    assert!(found.told >= 28 && found.as_fewer <= 6, "{found:?}");
+    assert!(found.determined >= 28 && found.as_fewer <= 6, "{found:?}");
 }
 
 /// One or two contacts at several levels of noise: the numbers of docs/forces-from-shapes.md.

@@ -131,8 +131,8 @@ fn moments_of_a_rod_at_a_pole_tell_places_and_forces() {
     let film = forces(rod, &frames, &ForceSettings { pole: Some(ANYWHERE), ..ForceSettings::default() });
     let pole = film.pole.as_ref().unwrap();
     assert!((0..2).all(|axis| (pole.center[axis] - CENTER[axis]).abs() < 4.0 * pole.covariance[axis][axis].sqrt()));
-    let told = film.frames.iter().filter(|frame| frame.as_ref().unwrap().verdict == FrameVerdict::Told).count();
-    assert!(told >= 28, "{told}");
+    let judged = film.frames.iter().filter(|frame| frame.as_ref().unwrap().verdict == FrameVerdict::Determined).count();
+    assert!(judged >= 28, "{judged}");
     let worst =
         errors(&film, &truth).into_iter().flat_map(|(off, _)| off).fold(0.0, |worst: f64, off| worst.max(off.abs()));
     assert!(worst < 4.5, "{worst}");

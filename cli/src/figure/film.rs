@@ -34,9 +34,10 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
     let every = found.frames.len().div_ceil(MOST).max(1);
     let drawn = || found.frames.iter().zip(&found.film.frames).step_by(every);
     let dots = || drawn().flat_map(|((_, frame), _)| frame.points.iter().map(|point| (1e3 * point.x, 1e3 * point.y)));
-    let told =
-        || drawn().filter_map(|(_, told)| told.as_ref().ok()).filter(|told| told.verdict.has_contacts_of_its_own());
-    let rods: Vec<Curve> = told().filter_map(|told| rod(found, told).ok()).collect();
+    let judged = || {
+        drawn().filter_map(|(_, judged)| judged.as_ref().ok()).filter(|judged| judged.verdict.has_contacts_of_its_own())
+    };
+    let rods: Vec<Curve> = judged().filter_map(|judged| rod(found, judged).ok()).collect();
     let rim = |cross: f64| found.film.pole.as_ref().map(|pole| rim(pole, cross)).unwrap_or_default();
     let extent = rim(0.0);
     let all = || dots().chain(rods.iter().flatten().copied()).chain(extent.iter().flatten().copied());
@@ -46,12 +47,12 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
     let (x, y) = (span(all().map(|point| point.0), 0.08), span(all().map(|point| point.1), 0.08));
     let (window, height) = PlaneWindow::as_wide_as(PAGE, &x, &y, HEIGHT);
     let largest =
-        told().flat_map(|told| &told.contacts).fold(f64::MIN_POSITIVE, |most, contact| most.max(contact.force));
+        judged().flat_map(|judged| &judged.contacts).fold(f64::MIN_POSITIVE, |most, contact| most.max(contact.force));
     svg((PAGE, HEAD + height), |root| {
         let (head, area) = root.split_vertically(HEAD);
         let shown = if every > 1 { format!("; one frame of {every} is drawn") } else { String::new() };
         let (name, unit) = force_unit(found);
-        let arrows = if told().all(|told| told.contacts.is_empty()) {
+        let arrows = if judged().all(|judged| judged.contacts.is_empty()) {
             "no force is found".to_owned()
         } else {
             format!("arrows: forces on the rod, the longest {:.2} {name}", largest / unit)
@@ -68,7 +69,7 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
             chart.draw_series([Element::line(line, INK.stroke_width(LINE / 2))])?;
         }
         let length = window.scale * ARROW / largest;
-        for contact in told().flat_map(|told| &told.contacts) {
+        for contact in judged().flat_map(|judged| &judged.contacts) {
             for line in arrow(contact, length, window.scale) {
                 chart.draw_series([Element::line(line, FIRST.stroke_width(LINE / 2))])?;
             }
@@ -91,18 +92,18 @@ fn force_unit(found: &FilmForces) -> (&'static str, f64) {
     if !found.rod.is_stiffness_known {
         return ("EI/L²", found.rod.rod.units().force);
     }
-    let told = found.film.frames.iter().flatten();
-    let largest = told.flat_map(|told| &told.contacts).fold(0.0_f64, |most, contact| most.max(contact.force));
+    let judged = found.film.frames.iter().flatten();
+    let largest = judged.flat_map(|judged| &judged.contacts).fold(0.0_f64, |most, contact| most.max(contact.force));
     if largest < 1e-4 { ("µN", 1e-6) } else { ("mN", 1e-3) }
 }
 
 /// The rod of a frame, mm.
-fn rod(found: &FilmForces, told: &FrameForces) -> Result<Curve, RodError> {
+fn rod(found: &FilmForces, judged: &FrameForces) -> Result<Curve, RodError> {
     let load =
         |contact: &FrameContact| Load { s: contact.s, force: contact.force, alpha: contact.fx.atan2(-contact.fy) };
-    let loads: Vec<Load> = told.contacts.iter().map(load).collect();
+    let loads: Vec<Load> = judged.contacts.iter().map(load).collect();
     let rod = &found.rod.rod;
-    let shape = Elastica::of_rod(rod.clone(), rod.units(), told.base, told.reactions.m0z, &loads)?;
+    let shape = Elastica::of_rod(rod.clone(), rod.units(), judged.base, judged.reactions.m0z, &loads)?;
     Ok(shape.sample(POINTS).map(|at| (1e3 * at.x, 1e3 * at.y)).collect())
 }
 
@@ -138,9 +139,9 @@ pub(crate) fn over_frames(found: &FilmForces) -> Result<String, FigureError> {
     let names = [first.as_str(), "s in mm", if is_known { "m_{0z} in µN m" } else { "m_{0z} in EI/L" }];
     type Quantity = fn(&FrameForces) -> Option<(f64, f64)>;
     let quantities: [(Quantity, f64); 3] = [
-        (|told| told.contacts.first().map(|contact| (contact.force, contact.sigma_force)), force),
-        (|told| told.contacts.first().map(|contact| (contact.s, contact.sigmas()[0])), 1e-3),
-        (|told| Some((told.reactions.m0z, told.covariance[5][5].max(0.0).sqrt())), moment),
+        (|judged| judged.contacts.first().map(|contact| (contact.force, contact.sigma_force)), force),
+        (|judged| judged.contacts.first().map(|contact| (contact.s, contact.sigmas()[0])), 1e-3),
+        (|judged| Some((judged.reactions.m0z, judged.covariance[5][5].max(0.0).sqrt())), moment),
     ];
     let numbers: Vec<f64> = found.frames.iter().map(|(number, _)| *number as f64).collect();
     let along = Along {
@@ -164,7 +165,9 @@ pub(crate) fn over_frames(found: &FilmForces) -> Result<String, FigureError> {
                 .film
                 .frames
                 .iter()
-                .map(|told| told.as_ref().ok().filter(|told| told.verdict.has_contacts_of_its_own()).and_then(quantity))
+                .map(|judged| {
+                    judged.as_ref().ok().filter(|judged| judged.verdict.has_contacts_of_its_own()).and_then(quantity)
+                })
                 .collect();
             (name, parts(&numbers, &values, unit))
         });

@@ -135,29 +135,29 @@ impl ContactRecord {
 }
 
 impl FrameRecord {
-    pub fn of(frame: i64, told: &Result<FrameForces, FrameFault>, rod: &FilmedRod) -> Self {
+    pub fn of(frame: i64, judged: &Result<FrameForces, FrameFault>, rod: &FilmedRod) -> Self {
         let (force, moment) = units(rod);
         let force_unit = if rod.is_stiffness_known { "N" } else { "EI/L^2" };
-        let told = match told {
-            Ok(told) => told,
+        let judged = match judged {
+            Ok(judged) => judged,
             Err(fault) => return Self::of_fault(frame, fault, force_unit),
         };
         let contacts = |contacts: &[FrameContact]| -> Vec<_> {
             contacts.iter().map(|contact| ContactRecord::of(contact, force)).collect()
         };
-        let own = contacts(&told.contacts);
+        let own = contacts(&judged.contacts);
         // a family has no place and force of its own
-        let is_family = told.verdict == FrameVerdict::Family;
+        let is_family = judged.verdict == FrameVerdict::Family;
         let first = own.first().filter(|_| !is_family).cloned();
-        let told_if = |number: f64, sigma: f64| Some(number).filter(|number| !is_family || sigma < number.abs());
+        let if_determined = |number: f64, sigma: f64| Some(number).filter(|number| !is_family || sigma < number.abs());
         let sizes = [force, force, moment];
-        let sigma = |k: usize| told.covariance[k][k].max(0.0).sqrt();
+        let sigma = |k: usize| judged.covariance[k][k].max(0.0).sqrt();
         let reactions: [[f64; 3]; 3] =
-            std::array::from_fn(|i| std::array::from_fn(|j| told.covariance[i + 3][j + 3] / sizes[i] / sizes[j]));
+            std::array::from_fn(|i| std::array::from_fn(|j| judged.covariance[i + 3][j + 3] / sizes[i] / sizes[j]));
         let of = |number: fn(&ContactRecord) -> Option<f64>| first.as_ref().and_then(number);
         Self {
             frame,
-            verdict: told.verdict.to_string(),
+            verdict: judged.verdict.to_string(),
             fault: None,
             s: of(|c| Some(c.s)),
             x: of(|c| Some(c.x)),
@@ -165,26 +165,26 @@ impl FrameRecord {
             force: of(|c| Some(c.force)),
             sigma_s: of(|c| c.sigma_s),
             sigma_force: of(|c| c.sigma_force),
-            f0x: told_if(told.reactions.f0x / force, sigma(3) / force),
-            f0y: told_if(told.reactions.f0y / force, sigma(4) / force),
-            m0z: Some(told.reactions.m0z / moment),
+            f0x: if_determined(judged.reactions.f0x / force, sigma(3) / force),
+            f0y: if_determined(judged.reactions.f0y / force, sigma(4) / force),
+            m0z: Some(judged.reactions.m0z / moment),
             sigma_f0x: known(sigma(3) / force),
             sigma_f0y: known(sigma(4) / force),
             sigma_m0z: known(sigma(5) / moment),
             covariance: reactions[0][0].is_finite().then_some(reactions),
-            x0: Some(told.base.x),
-            y0: Some(told.base.y),
-            phi0: Some(told.base.phi),
+            x0: Some(judged.base.x),
+            y0: Some(judged.base.y),
+            phi0: Some(judged.base.phi),
             sigma_x0: known(sigma(0)),
             sigma_y0: known(sigma(1)),
             sigma_phi0: known(sigma(2)),
-            chi2: Some(told.chi_squared),
-            freedom: Some(told.freedom),
-            p: Some(told.p_value),
-            shortening: told.shortening.map(|(share, _)| share),
-            sigma_shortening: told.shortening.map(|(_, sigma)| sigma),
-            rivals: told.rivals.iter().map(|rival| contacts(rival)).collect(),
-            family: told
+            chi2: Some(judged.chi_squared),
+            freedom: Some(judged.freedom),
+            p: Some(judged.p_value),
+            shortening: judged.shortening.map(|(share, _)| share),
+            sigma_shortening: judged.shortening.map(|(_, sigma)| sigma),
+            rivals: judged.rivals.iter().map(|rival| contacts(rival)).collect(),
+            family: judged
                 .family
                 .iter()
                 .map(|member| MemberRecord {
@@ -197,7 +197,7 @@ impl FrameRecord {
                 .collect(),
             contacts: own,
             force_unit,
-            has_contacts_of_its_own: told.verdict.has_contacts_of_its_own(),
+            has_contacts_of_its_own: judged.verdict.has_contacts_of_its_own(),
         }
     }
 

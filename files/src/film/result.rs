@@ -119,7 +119,7 @@ impl FilmForces {
     pub fn write(&self, staged: &Staged) -> Result<(), OutputError> {
         let all = self.frames.iter().zip(&self.film.frames);
         let records: Vec<FrameRecord> =
-            all.map(|((number, _), told)| FrameRecord::of(*number, told, &self.rod)).collect();
+            all.map(|((number, _), judged)| FrameRecord::of(*number, judged, &self.rod)).collect();
         staged
             .write(Path::new("forces.jsonl"), |file| records.iter().try_for_each(|record| json_line(file, record)))?;
         let rows = records.iter().map(FrameRecord::row);
@@ -132,9 +132,9 @@ impl FilmForces {
 
     /// How many frames have a fault, and how many no shape explains.
     pub fn failures(&self) -> (usize, usize) {
-        let faults = self.film.frames.iter().filter(|told| told.is_err()).count();
-        let told = self.film.frames.iter().flatten();
-        (faults, told.filter(|told| told.verdict == FrameVerdict::NotExplained).count())
+        let faults = self.film.frames.iter().filter(|judged| judged.is_err()).count();
+        let judged = self.film.frames.iter().flatten();
+        (faults, judged.filter(|judged| judged.verdict == FrameVerdict::NotExplained).count())
     }
 }
 

@@ -30,14 +30,14 @@ impl FilmForces {
 
     fn tell(&self, text: &mut String) -> std::fmt::Result {
         let mut verdicts: BTreeMap<String, usize> = BTreeMap::new();
-        for told in &self.film.frames {
-            let verdict = told.as_ref().map_or_else(|_| "fault".into(), |told| told.verdict.to_string());
+        for judged in &self.film.frames {
+            let verdict = judged.as_ref().map_or_else(|_| "fault".into(), |judged| judged.verdict.to_string());
             *verdicts.entry(verdict).or_default() += 1;
         }
         let verdicts: Vec<String> = verdicts.iter().map(|(verdict, count)| format!("{count} {verdict}")).collect();
         writeln!(text, "{}: {}: {}", self.name, counted(self.frames.len(), "frame"), verdicts.join(", "))?;
-        let has_points = |((_, frame), told): (&(i64, Frame), &Result<_, _>)| {
-            frame.points.len() > 2 && frame.points.iter().any(|point| point.sigma.is_none()) && told.is_ok()
+        let has_points = |((_, frame), judged): (&(i64, Frame), &Result<_, _>)| {
+            frame.points.len() > 2 && frame.points.iter().any(|point| point.sigma.is_none()) && judged.is_ok()
         };
         if self.frames.iter().zip(&self.film.frames).any(has_points) {
             let length = self.rod.rod.length();
@@ -85,22 +85,22 @@ impl FilmForces {
         let mut warnings = Vec::new();
         let numbered = || self.frames.iter().map(|(number, _)| *number).zip(&self.film.frames);
         let faults: Vec<String> = numbered()
-            .filter_map(|(number, told)| told.as_ref().err().map(|fault| format!("frame {number}: {fault}")))
+            .filter_map(|(number, judged)| judged.as_ref().err().map(|fault| format!("frame {number}: {fault}")))
             .collect();
         warnings.extend(faults.iter().take(MOST_FAULTS).cloned());
         if faults.len() > MOST_FAULTS {
             warnings.push(format!("and {} more", counted(faults.len() - MOST_FAULTS, "frame")));
         }
         let worst = numbered()
-            .filter_map(|(number, told)| Some((number, told.as_ref().ok()?)))
-            .filter(|(_, told)| told.verdict == FrameVerdict::NotExplained)
+            .filter_map(|(number, judged)| Some((number, judged.as_ref().ok()?)))
+            .filter(|(_, judged)| judged.verdict == FrameVerdict::NotExplained)
             .min_by(|a, b| a.1.p_value.total_cmp(&b.1.p_value));
-        if let Some((number, told)) = worst {
+        if let Some((number, judged)) = worst {
             let (_, count) = self.failures();
             warnings.push(format!(
                 "{} of {}: no shape with the contacts that are allowed; worst is frame {number} with chi squared {:.0} of {}; friction, \
-                 another shape at rest, points that are not of the rod, or more noise than is told?",
-                count, counted(self.frames.len(), "frame"), told.chi_squared, told.freedom
+                 another shape at rest, points that are not of the rod, or more noise than is given?",
+                count, counted(self.frames.len(), "frame"), judged.chi_squared, judged.freedom
             ));
         }
         if let Some(frame) = self.other_at_rest {
@@ -123,15 +123,15 @@ impl FilmForces {
     fn pole_in_doubt(&self) -> Vec<String> {
         let Some(prior) = self.settings.pole else { return Vec::new() };
         let Some(pole) = self.film.pole.as_ref() else {
-            let told = "each frame is judged without a pole";
-            let has_contacts = self.film.frames.iter().flatten().any(|told| !told.contacts.is_empty());
+            let alone = "each frame is judged without a pole";
+            let has_contacts = self.film.frames.iter().flatten().any(|judged| !judged.contacts.is_empty());
             return match (has_contacts, prior.center.is_some() || prior.radius.is_some()) {
                 (false, _) => vec!["no frame has a contact, so that none shows a pole".into()],
                 (true, true) => vec![format!(
-                    "the frames contradict the pole that is given: {told}; --pole alone finds the pole that the frames show, if there is one"
+                    "the frames contradict the pole that is given: {alone}; --pole alone finds the pole that the frames show, if there is one"
                 )],
                 (true, false) => vec![format!(
-                    "no pole explains nine tenths of the frames with a contact: {told}; is there one round object, and is it fixed?"
+                    "no pole explains nine tenths of the frames with a contact: {alone}; is there one round object, and is it fixed?"
                 )],
             };
         };
@@ -146,8 +146,8 @@ impl FilmForces {
 
     /// Points that are far less noisy than they are said to be.
     fn less_noise(&self) -> Option<String> {
-        let told = self.film.frames.iter().flatten().filter(|told| told.freedom > 0);
-        let mut shares: Vec<f64> = told.map(|told| (told.chi_squared / told.freedom as f64).sqrt()).collect();
+        let judged = self.film.frames.iter().flatten().filter(|judged| judged.freedom > 0);
+        let mut shares: Vec<f64> = judged.map(|judged| (judged.chi_squared / judged.freedom as f64).sqrt()).collect();
         shares.sort_unstable_by(f64::total_cmp);
         let share = *shares.get(shares.len() / 2)?;
         (self.settings.sigma.is_some() && share < LESS_NOISE).then(|| {

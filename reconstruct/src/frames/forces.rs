@@ -56,9 +56,9 @@ pub fn forces<R: PhysicalRod>(rod: &R, frames: &[Frame], settings: &ForceSetting
         Some(pole) if !pole.elsewhere.contains(&index) => of_frame(rod, frame, settings, sigma, Some(pole)),
         _ => of_frame(rod, frame, &without, sigma, None),
     };
-    let mut told: Vec<_> = frames.iter().enumerate().map(of).collect();
-    name_reversed(rod, frames, settings, sigma, &mut told);
-    Film { frames: told, sigma: sigma * rod.units().length, pole }
+    let mut judged: Vec<_> = frames.iter().enumerate().map(of).collect();
+    name_reversed(rod, frames, settings, sigma, &mut judged);
+    Film { frames: judged, sigma: sigma * rod.units().length, pole }
 }
 
 /// Names the frames whose points are in reverse order, if no shape explains most of the frames of the film: all were tracked in one way.
@@ -67,21 +67,21 @@ fn name_reversed<R: PhysicalRod>(
     frames: &[Frame],
     settings: &ForceSettings,
     sigma: f64,
-    told: &mut [Result<FrameForces, FrameFault>],
+    judged: &mut [Result<FrameForces, FrameFault>],
 ) {
-    let is_lost = |told: &Result<FrameForces, FrameFault>| {
-        told.as_ref().map_or_else(
+    let is_lost = |judged: &Result<FrameForces, FrameFault>| {
+        judged.as_ref().map_or_else(
             |fault| matches!(fault, FrameFault::NoShape),
-            |told| told.verdict == FrameVerdict::NotExplained,
+            |judged| judged.verdict == FrameVerdict::NotExplained,
         )
     };
-    if 2 * told.iter().filter(|told| is_lost(told)).count() <= told.len() {
+    if 2 * judged.iter().filter(|judged| is_lost(judged)).count() <= judged.len() {
         return;
     }
-    for (told, frame) in told.iter_mut().zip(frames).filter(|(told, _)| is_lost(told)) {
-        let forward = told.as_ref().map_or(f64::INFINITY, |told| told.chi_squared);
+    for (judged, frame) in judged.iter_mut().zip(frames).filter(|(judged, _)| is_lost(judged)) {
+        let forward = judged.as_ref().map_or(f64::INFINITY, |judged| judged.chi_squared);
         if is_explained_reversed(rod, frame, settings, sigma, forward) {
-            *told = Err(FrameFault::Reversed);
+            *judged = Err(FrameFault::Reversed);
         }
     }
 }
@@ -126,34 +126,34 @@ fn of_frame<R: PhysicalRod>(
     {
         return Err(FrameFault::OutOfPlane { shortening: 1e2 * share, most: 1e2 * settings.most_shortening });
     }
-    let mut told =
-        FrameForces { shortening, ..FrameForces::of(&best, FrameVerdict::Told, contacts(&best, &units), &units) };
+    let mut judged =
+        FrameForces { shortening, ..FrameForces::of(&best, FrameVerdict::Determined, contacts(&best, &units), &units) };
     for moved in pole.map(FilmPole::moved).into_iter().flatten() {
         observed.pole = Some(moved.in_lengths(&units, exact));
         if let Some(other) = solve(rod.model(), &observed, &best.start(), allowed.friction, MOST_STEPS) {
-            told.add_difference(&FrameForces::of(&other, FrameVerdict::Told, contacts(&other, &units), &units));
+            judged.add_difference(&FrameForces::of(&other, FrameVerdict::Determined, contacts(&other, &units), &units));
         }
     }
     let of_rivals: Vec<Vec<FrameContact>> = rivals.iter().map(|rival| contacts(rival, &units)).collect();
     let is_placed = !rod.model().is_uniform() || observed.ends != [false; 2] || !observed.channels.is_empty();
-    let verdict = verdict(&best, is_placed, &told.contacts, of_rivals.iter().flatten(), units.length);
-    told.verdict = verdict;
-    if verdict == FrameVerdict::Told && !best.is_quadratic(rod.model(), &observed, allowed.friction) {
-        told.verdict = FrameVerdict::Rough;
+    let verdict = verdict(&best, is_placed, &judged.contacts, of_rivals.iter().flatten(), units.length);
+    judged.verdict = verdict;
+    if verdict == FrameVerdict::Determined && !best.is_quadratic(rod.model(), &observed, allowed.friction) {
+        judged.verdict = FrameVerdict::Uncertain;
     }
     // what another explanation says differs from this one by an error of this one
     for (rival, contacts) in rivals.iter().zip(of_rivals) {
         let other = FrameForces::of(rival, verdict, contacts, &units);
-        told.add_difference(&other);
-        told.rivals.push(other.contacts);
+        judged.add_difference(&other);
+        judged.rivals.push(other.contacts);
     }
     if let Some(unseen) = &unseen {
-        told.add_unseen(&FrameForces::of(unseen, verdict, contacts(unseen, &units), &units));
+        judged.add_unseen(&FrameForces::of(unseen, verdict, contacts(unseen, &units), &units));
     }
-    if verdict == FrameVerdict::Family && told.contacts.len() < 2 {
-        told.family = family(rod.model(), &observed, &units, allowed);
+    if verdict == FrameVerdict::Family && judged.contacts.len() < 2 {
+        judged.family = family(rod.model(), &observed, &units, allowed);
     }
-    Ok(told)
+    Ok(judged)
 }
 
 /// Whether the points in reverse order are of a shape of the rod.

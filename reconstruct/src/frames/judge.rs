@@ -43,5 +43,5 @@ pub(super) fn verdict<'a>(
         return FrameVerdict::Several;
     }
     // as many unknowns as numbers: nothing checks them
-    if best.freedom <= 0 || contacts.iter().any(is_vague) { FrameVerdict::Rough } else { FrameVerdict::Told }
+    if best.freedom <= 0 || contacts.iter().any(is_vague) { FrameVerdict::Uncertain } else { FrameVerdict::Determined }
 }

@@ -73,11 +73,11 @@ impl<'a> Starts<'a> {
 
     /// Position and direction of the base by its channels.
     fn base(&self) -> Cut {
-        let told = |axis| {
+        let judged = |axis| {
             let of = |quantity| self.observed.channel(quantity);
             of(Measurand::Base(axis)).or_else(|| of(Measurand::Support(axis))).unwrap_or(0.0)
         };
-        Cut { x: told(Axis::X), y: told(Axis::Y), phi: told(Axis::Angle), moment: 0.0 }
+        Cut { x: judged(Axis::X), y: judged(Axis::Y), phi: judged(Axis::Angle), moment: 0.0 }
     }
 
     /// Dots that show no shape: somewhere in the middle, but for ends.

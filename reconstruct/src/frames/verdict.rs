@@ -1,20 +1,20 @@
-//! What a frame cannot tell.
+//! What a frame determines.
 
 use std::fmt;
 
-/// What a frame tells of the forces on the rod, from the information matrix.
+/// Whether a frame determines the forces on the rod, from the information matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameVerdict {
     /// No force beyond the noise.
     Free,
     /// Contacts, forces and reactions are determined.
-    Told,
-    /// A contact is there, but its place and its force are known roughly only (standard deviations of more than a tenth of the length, or of
-    /// half of the force), or their standard deviations are those of a curved valley of chi squared and too small, or there are as many unknowns as
-    /// numbers, so that nothing checks them: what they do together, the moment at the base, may be known well.
-    Rough,
-    /// Place and force are not told apart at all: a whole family of them explains the frame.
+    Determined,
+    /// There is a contact, but its place or its force is uncertain: a standard deviation exceeds a tenth of the length or half of the force; or chi
+    /// squared is not quadratic within one standard deviation, which is then too small; or there are as many unknowns as numbers, so that no residual
+    /// checks them. The moment at the base may be known well all the same.
+    Uncertain,
+    /// Place and force are not determined separately: a one-parameter family of them explains the frame.
     Family,
     /// More than one set of contacts explains the frame: the others are rivals.
     Several,
@@ -33,8 +33,8 @@ impl fmt::Display for FrameVerdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Free => "free",
-            Self::Told => "told",
-            Self::Rough => "rough",
+            Self::Determined => "determined",
+            Self::Uncertain => "uncertain",
             Self::Family => "family",
             Self::Several => "several",
             Self::NotExplained => "not explained",
