@@ -13,6 +13,7 @@ pub(crate) const DISTANCES: [u32; 3] = [20, 40, 60];
 /// Object, distance (mm), name of the cycle in fig. 8a, file and text of the scene.
 pub(super) type Entry = (&'static str, u32, &'static str, &'static str, &'static str);
 
+// Of the folder of this package, where they are links: a published package has nothing from outside of it.
 macro_rules! scene {
     ($object:literal, $distance:literal, $cycle:literal) => {
         (
@@ -20,7 +21,7 @@ macro_rules! scene {
             $distance,
             $cycle,
             concat!("scenes/", $object, "_q", $distance, ".toml"),
-            include_str!(concat!("../../../scenes/", $object, "_q", $distance, ".toml")),
+            include_str!(concat!("../../scenes/", $object, "_q", $distance, ".toml")),
         )
     };
 }
