@@ -1,0 +1,366 @@
+//! The search for all equilibria of a rod without contacts.
+//!
+//! Where the tip's place is not held, one number is unknown, the moment at the clamp, and it is bounded: the roots are found by an
+//! adaptive scan with the exact derivative. Where the place is held, Newton's method starts from a grid of clamp moments and support
+//! forces, from each node whose first step stays in its neighbourhood. A tip near full extension needs forces beyond the grid: its
+//! equilibria are followed from a tip nearer to the clamp, and those under strong loads from weaker ones.
+
+use super::problem::{Multiple, Problem, Shape, Single, Unknowns, shot};
+use super::tip::{Tip, TipEnd};
+use crate::model::RodModel;
+use crate::solve::{NewtonOptions, NewtonWorkspace, System, find_root, linear, solve};
+use std::f64::consts::TAU;
+
+/// Largest residual of an equilibrium: L, rad, and E I / L relative to 1 + the largest moment.
+const LARGEST_RESIDUAL: f64 = 1e-12;
+/// Growth (exponent) of the state between two nodes of multiple shooting: keeps the condition number below about 100 per interval.
+const GROWTH: f64 = 2.0;
+
+/// Intervals of the scan before refinement.
+const SCAN: usize = 128;
+/// Most halvings of an interval of the scan.
+const MOST_HALVINGS: u32 = 16;
+/// Most evaluations of the scan.
+const MOST_EVALUATIONS: usize = 40_000;
+/// Deviation of the middle of an interval from the cubic through its ends, relative to the values there, at which the interval is resolved.
+const RESOLVED: f64 = 0.02;
+/// Size of an extremum (rad, E I / L) that counts as a double root.
+const DOUBLE: f64 = 1e-12;
+
+/// Steps of the grid in the square root of the support force: a quarter of the distance of two buckling modes.
+const FORCE_STEP: f64 = 0.75;
+/// Their number: forces up to (20 * 0.75)^2 = 225 E I / L^2, the first four modes of a rod between two clamps.
+const FORCE_STEPS: usize = 20;
+/// The largest force of the grid, E I / L^2.
+pub(super) const LARGEST_FORCE: f64 = (FORCE_STEP * FORCE_STEPS as f64) * (FORCE_STEP * FORCE_STEPS as f64);
+/// Directions of the grid.
+const DIRECTIONS: usize = 24;
+/// Length of a first Newton step in grid cells up to which Newton's method starts from a node.
+const NEAR: f64 = 2.0;
+/// Relative difference up to which two solutions are the same.
+const SAME: f64 = 1e-6;
+
+/// Distance of a held tip from the clamp (L) from which on equilibria are followed from a tip nearer to it, and its distance there.
+const STRETCHED: f64 = 0.9;
+const SLACK: f64 = 0.8;
+/// Sum of the given forces (E I / L^2) up to which single shooting resolves all equilibria: those under larger ones are followed, too.
+const MODERATE: f64 = 50.0;
+/// Most equilibria that are followed, of the lowest forces.
+const MOST_FOLLOWED: usize = 16;
+/// First and least step of the way from one to the other.
+const STEPS: (f64, f64) = (0.1, 1e-3);
+
+/// An equilibrium: its shape, the force of the tip's support, and its residual.
+pub(super) struct Found<'a, M> {
+    pub shape: Shape<'a, M>,
+    pub force: [f64; 2],
+    pub residual: f64,
+}
+
+/// All equilibria that the search finds, each once, in no order.
+pub(super) fn equilibria<'a, M: RodModel>(problem: &Problem<'a, M>) -> Vec<Found<'a, M>> {
+    let mut workspace = NewtonWorkspace::new();
+    let mut found = direct(problem, &mut workspace);
+    if problem.size > MODERATE {
+        // the loads grow geometrically
+        let factor = MODERATE / problem.size;
+        found.extend(followed(&|t: f64| problem.with_loads(factor.powf(1.0 - t)), &mut workspace));
+    }
+    if let Some(nearer) = slackened(problem) {
+        found.extend(followed(&nearer, &mut workspace));
+    }
+    distinct(found)
+}
+
+/// Without continuation.
+fn direct<'a, M: RodModel>(problem: &Problem<'a, M>, workspace: &mut NewtonWorkspace) -> Vec<Found<'a, M>> {
+    if problem.held().next().is_some() {
+        return from_grid(problem, workspace);
+    }
+    let shape = |moment| shot(problem, &Unknowns { moment, force: [0.0; 2] });
+    scan(problem).into_iter().filter_map(|moment| polished(problem, &shape(moment), [0.0; 2], workspace)).collect()
+}
+
+/// The equilibrium near a shape, by multiple shooting.
+fn polished<'a, M: RodModel>(
+    problem: &Problem<'a, M>,
+    shape: &Shape<'a, M>,
+    force: [f64; 2],
+    workspace: &mut NewtonWorkspace,
+) -> Option<Found<'a, M>> {
+    let nodes = Multiple::new(problem, force, GROWTH);
+    let guess = nodes.vector(shape, force);
+    let mut u = guess.clone();
+    let report = solve(&nodes, &mut u, &NewtonOptions::default(), workspace);
+    // at a critical load Newton's method has no direction, and the guess may solve the equations already
+    let solutions = [report.status.is_solved().then_some(u), Some(guess)];
+    solutions.into_iter().flatten().find_map(|u| {
+        let (cuts, force, residual) = nodes.shape(&u);
+        let shape = Shape { rod: problem.rod, nodes: cuts };
+        (residual <= LARGEST_RESIDUAL).then_some(Found { shape, force, residual })
+    })
+}
+
+fn distinct<M: RodModel>(found: Vec<Found<'_, M>>) -> Vec<Found<'_, M>> {
+    // near a separatrix the moments at the clamp agree in all digits, and the shapes do not
+    let numbers = |one: &Found<'_, M>| {
+        let [middle, tip] = [0.5, 1.0].map(|s| one.shape.cut(s));
+        let ends = [one.shape.nodes[0].start.moment, one.force[0], one.force[1]];
+        [ends[0], ends[1], ends[2], middle.phi, middle.moment, tip.phi, tip.moment, tip.x, tip.y]
+    };
+    let mut once: Vec<(Found<'_, M>, [f64; 9])> = Vec::new();
+    for one in found {
+        let own = numbers(&one);
+        if !once.iter().any(|(_, other)| same(other, &own)) {
+            once.push((one, own));
+        }
+    }
+    once.into_iter().map(|(one, _)| one).collect()
+}
+
+fn same(one: &[f64], other: &[f64]) -> bool {
+    let size = one.iter().chain(other).fold(1.0, |most: f64, value| most.max(value.abs()));
+    one.iter().zip(other).all(|(u, v)| (u - v).abs() <= SAME * size)
+}
+
+/// The bending moment that turns the tip of the rod to the prescribed angle or is prescribed there, without any force.
+fn mean_moment<M: RodModel>(problem: &Problem<'_, M>) -> f64 {
+    match problem.tip.phi {
+        TipEnd::Loaded(moment) => moment,
+        TipEnd::Held(phi) => {
+            let (end, by) = problem.rod.carry_with_sensitivities(0.0, &problem.start(0.0), 0.0, 0.0, 1.0);
+            (phi - end.phi) / by.by_moment[2]
+        }
+    }
+}
+
+/// All moments at the clamp that give the prescribed moment or angle at the tip.
+///
+/// No arm of a force is longer than the rod: the moment leaves that without forces by at most the sum of the forces. Of a uniform
+/// rod, kappa^2 / 2 changes by at most twice that sum, too.
+fn scan<M: RodModel>(problem: &Problem<'_, M>) -> Vec<f64> {
+    let mean = mean_moment(problem);
+    if problem.size == 0.0 {
+        return vec![mean];
+    }
+    let (mut least, mut most) = (mean - problem.size, mean + problem.size);
+    if problem.rod.is_uniform() {
+        let bound = (mean * mean + 4.0 * problem.size).sqrt();
+        (least, most) = (least.max(-bound), most.min(bound));
+    }
+    let room = 1e-3 * (most - least);
+    let miss = |moment| problem.last_miss(&Unknowns { moment, force: [0.0; 2] });
+    Scan { f: miss, roots: Vec::new(), evaluations: 0 }.all(least - room, most + room)
+}
+
+/// The scan of a function of one variable, which gives its value and derivative.
+struct Scan<F> {
+    f: F,
+    roots: Vec<f64>,
+    evaluations: usize,
+}
+
+#[derive(Clone, Copy)]
+struct At {
+    x: f64,
+    value: f64,
+    slope: f64,
+}
+
+impl<F: Fn(f64) -> (f64, f64)> Scan<F> {
+    fn all(mut self, from: f64, to: f64) -> Vec<f64> {
+        let mut before = self.at(from);
+        for k in 1..=SCAN {
+            let next = self.at(from + (to - from) * k as f64 / SCAN as f64);
+            self.refine(before, next, 0);
+            before = next;
+        }
+        self.roots.sort_by(f64::total_cmp);
+        self.roots.dedup();
+        self.roots
+    }
+
+    fn at(&mut self, x: f64) -> At {
+        self.evaluations += 1;
+        let (value, slope) = (self.f)(x);
+        At { x, value, slope }
+    }
+
+    fn refine(&mut self, a: At, b: At, halvings: u32) {
+        let (middle, h) = (self.at(0.5 * (a.x + b.x)), b.x - a.x);
+        let value = 0.5 * (a.value + b.value) + 0.125 * h * (a.slope - b.slope);
+        let slope = 1.5 * (b.value - a.value) / h - 0.25 * (a.slope + b.slope);
+        let steepest = a.slope.abs().max(b.slope.abs()).max(middle.slope.abs());
+        let is_resolved = (middle.value - value).abs() <= RESOLVED * h * steepest
+            && (middle.slope - slope).abs() <= 5.0 * RESOLVED * steepest;
+        if is_resolved || halvings >= MOST_HALVINGS || self.evaluations > MOST_EVALUATIONS {
+            self.take(a, middle);
+            self.take(middle, b);
+        } else {
+            self.refine(a, middle, halvings + 1);
+            self.refine(middle, b, halvings + 1);
+        }
+    }
+
+    /// The roots in an interval in which the function has at most one extremum.
+    fn take(&mut self, a: At, b: At) {
+        if a.value == 0.0 {
+            self.roots.push(a.x);
+        }
+        // just behind a root the sign is that of the slope, just before it the opposite one
+        let sign_a = if a.value == 0.0 { a.slope } else { a.value };
+        let sign_b = if b.value == 0.0 { -b.slope } else { b.value };
+        let from = if a.value == 0.0 { a.x + 1e-6 * (b.x - a.x) } else { a.x };
+        let to = if b.value == 0.0 { b.x - 1e-6 * (b.x - a.x) } else { b.x };
+        if sign_a * sign_b < 0.0 {
+            self.between(from, to);
+        } else if sign_a * a.slope < 0.0 && sign_b * b.slope > 0.0 {
+            let slope = |x| Ok((self.f)(x).1);
+            let Ok(extremum) = find_root("the slope", slope, a.x, b.x, 0.0) else { return };
+            let (value, _) = (self.f)(extremum.at);
+            if value.abs() <= DOUBLE {
+                self.roots.push(extremum.at);
+            } else if value * sign_a < 0.0 {
+                self.between(from, extremum.at);
+                self.between(extremum.at, to);
+            }
+        }
+    }
+
+    /// The root between two places, if the signs there differ.
+    fn between(&mut self, from: f64, to: f64) {
+        let root = find_root("the prescribed quantity at the tip", |x| Ok((self.f)(x).0), from, to, 0.0);
+        self.roots.extend(root.ok().map(|root| root.at));
+    }
+}
+
+/// The equilibria to which Newton's method leads from the nodes of a grid.
+fn from_grid<'a, M: RodModel>(problem: &Problem<'a, M>, workspace: &mut NewtonWorkspace) -> Vec<Found<'a, M>> {
+    let system = Single(problem);
+    let n = system.dimension();
+    let options = NewtonOptions { max_iterations: 40, ..NewtonOptions::default() };
+    let mean = mean_moment(problem);
+    let (mut residual, mut jacobian, mut inverse) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
+    let (mut step, mut solutions): (Vec<f64>, Vec<Vec<f64>>) = (vec![0.0; n], Vec::new());
+    for (force, cell) in forces(problem) {
+        let size = problem.size + force[0].hypot(force[1]);
+        let bound = (mean * mean + 4.0 * size).sqrt() + 1.0;
+        // an odd number: a straight rod is among the starts
+        let half = (4.0 + 2.0 * size.sqrt() + mean.abs()).ceil();
+        for k in -(half as i32)..=half as i32 {
+            let start = system.vector(&Unknowns { moment: bound * f64::from(k) / half, force });
+            system.evaluate(&start, &mut residual, Some(&mut jacobian));
+            if !linear::invert(n, &jacobian, &mut inverse) {
+                continue;
+            }
+            linear::multiply(&inverse, &residual, -1.0, &mut step);
+            let is_near = step[0].abs() <= NEAR * bound / half && step[1..].iter().all(|df| df.abs() <= NEAR * cell);
+            if !is_near {
+                continue;
+            }
+            let mut u = start;
+            if solve(&system, &mut u, &options, workspace).status.is_solved()
+                && !solutions.iter().any(|known| same(known, &u))
+            {
+                solutions.push(u);
+            }
+        }
+    }
+    let polish = |u: Vec<f64>| {
+        let unknowns = system.unknowns(&u);
+        polished(problem, &shot(problem, &unknowns), unknowns.force, workspace)
+    };
+    solutions.into_iter().filter_map(polish).collect()
+}
+
+/// The support forces of the grid, each with the size of its cell: along the line from the clamp to the tip and in equal angles from it.
+fn forces<M: RodModel>(problem: &Problem<'_, M>) -> Vec<([f64; 2], f64)> {
+    let held: Vec<usize> = problem.held().collect();
+    let mut forces = vec![([0.0; 2], 1.0)];
+    let along = match (problem.tip.x, problem.tip.y) {
+        (TipEnd::Held(x), TipEnd::Held(y)) if x != problem.clamp.x || y != problem.clamp.y => {
+            (y - problem.clamp.y).atan2(x - problem.clamp.x)
+        }
+        _ => problem.clamp.phi,
+    };
+    for k in 1..=FORCE_STEPS {
+        let root = FORCE_STEP * k as f64;
+        let (size, radial) = (root * root, 2.0 * root * FORCE_STEP);
+        match held[..] {
+            [one] => forces.extend([size, -size].map(|force| {
+                let mut both = [0.0; 2];
+                both[one] = force;
+                (both, radial)
+            })),
+            _ => forces.extend((0..DIRECTIONS).map(|k| {
+                let (sin, cos) = (along + TAU * k as f64 / DIRECTIONS as f64).sin_cos();
+                ([size * cos, size * sin], radial.max(size * TAU / DIRECTIONS as f64))
+            })),
+        }
+    }
+    forces
+}
+
+/// For a tip near full extension: the problem on the way there from a tip nearer to the clamp, by a parameter from 0 to 1.
+fn slackened<'a, M: RodModel>(problem: &Problem<'a, M>) -> Option<impl Fn(f64) -> Problem<'a, M>> {
+    let clamp = problem.clamp;
+    let from_clamp = |end: TipEnd, clamp: f64| if let TipEnd::Held(value) = end { value - clamp } else { 0.0 };
+    let (dx, dy) = (from_clamp(problem.tip.x, clamp.x), from_clamp(problem.tip.y, clamp.y));
+    let away = dx.hypot(dy);
+    // the distance from full extension goes down geometrically
+    let at = move |t: f64| {
+        let distance = 1.0 - (1.0 - SLACK).powf(1.0 - t) * (1.0 - away).powf(t);
+        let moved = |end, clamp: f64, d: f64| match end {
+            TipEnd::Held(_) => TipEnd::Held(clamp + d * distance / away),
+            loaded => loaded,
+        };
+        let Tip { x, y, phi } = problem.tip;
+        let nearer = Tip { x: moved(x, clamp.x, dx), y: moved(y, clamp.y, dy), phi };
+        problem.with_tip(if t < 1.0 { nearer } else { problem.tip })
+    };
+    (away > STRETCHED).then_some(at)
+}
+
+/// The equilibria of a problem that depends on a parameter, at 1, followed from those at 0.
+fn followed<'a, M: RodModel>(
+    at: &impl Fn(f64) -> Problem<'a, M>,
+    workspace: &mut NewtonWorkspace,
+) -> Vec<Found<'a, M>> {
+    let mut starts = distinct(direct(&at(0.0), workspace));
+    starts.sort_by(|one, other| one.force[0].hypot(one.force[1]).total_cmp(&other.force[0].hypot(other.force[1])));
+    starts.truncate(MOST_FOLLOWED);
+    let follow = |first: Found<'a, M>| {
+        let (mut now, mut t, mut step) = (first, 0.0, STEPS.0);
+        while t < 1.0 {
+            let next: f64 = (t + step).min(1.0);
+            match polished(&at(next), &now.shape, now.force, workspace) {
+                Some(found) => (now, t, step) = (found, next, 1.5 * step),
+                None if step > STEPS.1 => step *= 0.5,
+                None => return None,
+            }
+        }
+        Some(now)
+    };
+    starts.into_iter().filter_map(follow).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scan_finds_close_double_and_exact_roots() {
+        let roots = |f: &dyn Fn(f64) -> (f64, f64)| Scan { f, roots: Vec::new(), evaluations: 0 }.all(-1.0, 1.0);
+        // a pitchfork just beyond its critical point: 0 and +-1e-4
+        let found = roots(&|x| (x * (x * x - 1e-8), 3.0 * x * x - 1e-8));
+        assert!(found.len() == 3 && (found[2] - 1e-4).abs() < 1e-12 && found[1] == 0.0, "{found:?}");
+        let found = roots(&|x| ((x - 0.3).powi(2), 2.0 * (x - 0.3)));
+        assert!(found.len() == 1 && (found[0] - 0.3).abs() < 1e-6, "{found:?}");
+        let found = roots(&|x| ((40.0 * x).sin(), 40.0 * (40.0 * x).cos()));
+        assert_eq!(found.len(), 25, "{found:?}");
+        // two roots 2e-7 apart, far below the first intervals
+        let found = roots(&|x| ((x - 0.123).powi(2) - 1e-14, 2.0 * (x - 0.123)));
+        assert!(found.len() == 2 && (found[1] - found[0] - 2e-7).abs() < 1e-12, "{found:?}");
+        assert!(roots(&|x| (x * x + 1e-3, 2.0 * x)).is_empty());
+    }
+}
