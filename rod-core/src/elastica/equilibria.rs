@@ -2,7 +2,7 @@
 
 use super::Elastica;
 use super::problem::{Problem, Shape, components};
-use super::search::{self, Found, LARGEST_FORCE};
+use super::search::{self, Found, LARGEST_PHASE};
 use super::second_variation::unstable_directions;
 use super::tip::{DeadLoad, ElasticaError, Tip, TipEnd, check};
 use crate::model::{Cut, RodModel, Uniform};
@@ -81,7 +81,8 @@ pub fn elastica_equilibria<R: PhysicalRod>(
     let problem = Problem::new(model, units, pose, loads, tip);
     let found = search::equilibria(&problem);
     if found.is_empty() {
-        return Err(ElasticaError::NotFound { most: LARGEST_FORCE * units.force, dimensionless: LARGEST_FORCE });
+        let dimensionless = (LARGEST_PHASE / problem.root_compliance).powi(2);
+        return Err(ElasticaError::NotFound { most: dimensionless * units.force, dimensionless });
     }
     let mut all: Vec<_> = found.into_iter().map(|one| equilibrium(model, &problem, one, units)).collect();
     all.sort_by(|one, other| one.potential_energy.total_cmp(&other.potential_energy));

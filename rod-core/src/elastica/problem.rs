@@ -6,7 +6,7 @@
 //! Analysis, section 7.3.5) adds angle and moment at nodes, so that no error grows along the rod; it gives the results.
 
 use super::tip::{DeadLoad, Tip, TipEnd};
-use crate::model::{Chain, Cut, CutSensitivities, RodModel};
+use crate::model::{Chain, Cut, CutSensitivities, RodModel, RodSection, Sections};
 use crate::pose::Pose;
 use crate::segment::Segment;
 use crate::solve::System;
@@ -32,6 +32,60 @@ pub(super) struct Problem<'a, M> {
     pub total: [f64; 2],
     /// Sum of their magnitudes.
     pub size: f64,
+    /// Integral of 1 / EI along the rod: the turn of the tip by a moment.
+    pub compliance: f64,
+    /// Integral of EI^(-1/2) along the rod: phase by the square root of a force.
+    pub root_compliance: f64,
+}
+
+/// The integral of a function of 1 / EI between two arc lengths.
+fn integral(rod: &impl RodModel, ends: &[f64], f: impl Fn(f64) -> f64 + Copy) -> f64 {
+    let (from, length) = (ends[0], (ends[1] - ends[0]) / PARTS as f64);
+    (0..PARTS).map(|k| length * mean(rod, &[from + length * k as f64, from + length * (k + 1) as f64], f)).sum()
+}
+
+/// Parts of an integral.
+const PARTS: usize = 16;
+
+/// Points of the midpoint rule for the mean of the stiffness.
+const POINTS: usize = 4;
+
+/// The rod in `count` uniform sections of equal phase, cut at its joints too: the closed form instead of a differential equation.
+pub(super) fn in_sections(rod: &impl RodModel, count: usize) -> Option<Sections> {
+    let mut ends = of_equal_phase(rod, [0.0, 1.0], count);
+    ends.extend(rod.joints());
+    ends.extend([0.0, 1.0]);
+    ends.sort_by(f64::total_cmp);
+    ends.dedup_by(|later, earlier| *later - *earlier < SHORTEST);
+    let section = |ends: &[f64]| RodSection {
+        length: ends[1] - ends[0],
+        bending_stiffness: 1.0 / mean(rod, ends, |compliance| compliance),
+        natural_curvature: rod.curvature_at(0.5 * (ends[0] + ends[1]), 0.0),
+    };
+    Sections::new(&ends.windows(2).map(section).collect::<Vec<_>>()).ok()
+}
+
+/// The `count` - 1 places between two arc lengths that divide them into parts of equal phase, int EI^(-1/2) ds, nearly.
+fn of_equal_phase(rod: &impl RodModel, [from, to]: [f64; 2], count: usize) -> Vec<f64> {
+    if rod.is_uniform() || count < 2 {
+        return (1..count).map(|k| from + (to - from) * k as f64 / count as f64).collect();
+    }
+    let steps = 16 * count;
+    let at = |k: usize| from + (to - from) * k as f64 / steps as f64;
+    let mut phases = vec![0.0];
+    for k in 0..steps {
+        phases.push(phases[k] + mean(rod, &[at(k), at(k + 1)], f64::sqrt));
+    }
+    (1..count).map(|k| at(phases.partition_point(|phase| *phase < phases[steps] * k as f64 / count as f64))).collect()
+}
+
+/// Shortest of these sections, L.
+const SHORTEST: f64 = 1e-6;
+
+/// The mean of a function of 1 / EI between two arc lengths.
+fn mean(rod: &impl RodModel, ends: &[f64], f: impl Fn(f64) -> f64) -> f64 {
+    let at = |k: usize| ends[0] + (ends[1] - ends[0]) * (k as f64 + 0.5) / POINTS as f64;
+    (0..POINTS).map(at).map(|s| f(rod.curvature_at(s, 1.0) - rod.curvature_at(s, 0.0))).sum::<f64>() / POINTS as f64
 }
 
 /// The components (A, B) of a force: kappa' = A cos phi + B sin phi.
@@ -67,14 +121,22 @@ impl<'a, M: RodModel> Problem<'a, M> {
             ahead: breaks[..breaks.len() - 1].iter().map(|s| sum(*s)).collect(),
             total: sum(-1.0),
             size: loads.iter().map(|(_, [fx, fy])| fx.hypot(*fy)).sum(),
+            compliance: integral(rod, &[0.0, 1.0], |compliance| compliance),
+            root_compliance: integral(rod, &[0.0, 1.0], f64::sqrt),
             breaks,
         }
     }
 
     /// The same with another tip, whose given loads are the same.
     pub fn with_tip(&self, tip: Tip) -> Self {
-        let Self { rod, clamp, total, size, .. } = *self;
-        Self { rod, clamp, tip, breaks: self.breaks.clone(), ahead: self.ahead.clone(), total, size }
+        Self { tip, ..self.with_rod(self.rod) }
+    }
+
+    /// The same of another rod.
+    pub fn with_rod<'b, N>(&self, rod: &'b N) -> Problem<'b, N> {
+        let (breaks, ahead) = (self.breaks.clone(), self.ahead.clone());
+        let Self { clamp, tip, total, size, compliance, root_compliance, .. } = *self;
+        Problem { rod, clamp, tip, breaks, ahead, total, size, compliance, root_compliance }
     }
 
     /// The same with all given forces times a factor.
@@ -87,6 +149,14 @@ impl<'a, M: RodModel> Problem<'a, M> {
             size: factor * self.size,
             ..self.with_tip(Tip { x: tip(self.tip.x), y: tip(self.tip.y), phi: self.tip.phi })
         }
+    }
+
+    /// The phase of the given forces, int sqrt(force / EI) ds: the logarithm of how much the tip depends on the clamp.
+    pub fn phase(&self) -> f64 {
+        let on = |(ends, [fx, fy]): (&[f64], &[f64; 2])| {
+            fx.hypot(*fy).sqrt() * integral(self.rod, ends, f64::sqrt)
+        };
+        self.breaks.windows(2).zip(&self.ahead).map(on).sum()
     }
 
     /// The tip's coordinates along x and y that are held: 0, 1 or both.
@@ -179,6 +249,9 @@ impl<M: RodModel> System for Single<'_, '_, M> {
 /// A shape as nodes: arc length, cut, and the force behind; the last node is the tip.
 pub(super) type Nodes = Vec<Segment<Cut>>;
 
+/// Most nodes between two breaks.
+const MOST_NODES: f64 = 100.0;
+
 /// Multiple shooting between nodes.
 pub(super) struct Multiple<'p, 'a, M> {
     problem: &'p Problem<'a, M>,
@@ -194,10 +267,9 @@ impl<'p, 'a, M: RodModel> Multiple<'p, 'a, M> {
         let (mut mesh, mut ahead) = (vec![0.0], Vec::new());
         for (i, ends) in problem.breaks.windows(2).enumerate() {
             let [fx, fy] = problem.force(i, force);
-            let length = ends[1] - ends[0];
-            let phase = length * (fx.hypot(fy) / problem.rod.least_stiffness(ends[0], ends[1])).sqrt();
-            let parts = (phase / growth).ceil().clamp(1.0, 1e3) as usize;
-            mesh.extend((1..parts).map(|k| ends[0] + length * k as f64 / parts as f64));
+            let phase = fx.hypot(fy).sqrt() * integral(problem.rod, ends, f64::sqrt);
+            let parts = (phase / growth).ceil().clamp(1.0, MOST_NODES) as usize;
+            mesh.extend(of_equal_phase(problem.rod, [ends[0], ends[1]], parts));
             mesh.push(ends[1]);
             ahead.extend(std::iter::repeat_n(problem.ahead[i], parts));
         }
@@ -235,7 +307,7 @@ impl<'p, 'a, M: RodModel> Multiple<'p, 'a, M> {
     }
 
     /// The unknowns of a shape that is known.
-    pub fn vector(&self, shape: &Shape<'_, M>, force: [f64; 2]) -> Vec<f64> {
+    pub fn vector(&self, shape: &Shape<'_, impl RodModel>, force: [f64; 2]) -> Vec<f64> {
         let mut u = vec![shape.cut(0.0).moment];
         for s in &self.mesh[1..self.intervals()] {
             let cut = shape.cut(*s);
