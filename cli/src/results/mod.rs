@@ -5,7 +5,7 @@ mod profile;
 pub use profile::write_profiles;
 
 use crate::figure::{self, FigureError};
-use rod_files::{FilmForces, OutputError, Reconstructed, Scan, Staged};
+use rod_files::{ElasticaRun, FilmForces, OutputError, Reconstructed, Scan, Staged};
 use std::path::Path;
 
 /// Why results cannot be written.
@@ -61,5 +61,16 @@ pub fn write_film(found: &FilmForces, staged: &Staged) -> Result<(), WriteError>
     for (name, figure) in figures {
         staged.write(Path::new(name), |file| file.write_all(figure.as_bytes()))?;
     }
+    Ok(())
+}
+
+/// Writes elastica.json, shapes.csv and elastica.svg into the staged directory.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write_elastica(run: &ElasticaRun, staged: &Staged) -> Result<(), WriteError> {
+    let figure = figure::equilibria(run)?;
+    run.write(staged)?;
+    staged.write(Path::new("elastica.svg"), |file| file.write_all(figure.as_bytes()))?;
     Ok(())
 }

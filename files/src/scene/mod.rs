@@ -6,6 +6,7 @@
 
 mod check;
 mod document;
+mod elastica;
 mod files;
 mod friction;
 mod known_rod;
@@ -17,6 +18,7 @@ mod rod;
 mod rod_table;
 mod shape;
 
+pub use elastica::ElasticaScene;
 pub use friction::SceneFriction;
 pub use known_rod::{CalibratedRod, read_calibrated_rod, read_uniform_rod, unit_of};
 pub use leg::{Leg, LegPath};

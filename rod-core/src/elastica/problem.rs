@@ -34,6 +34,8 @@ pub(super) struct Problem<'a, M> {
     pub size: f64,
     /// Integral of 1 / EI along the rod: the turn of the tip by a moment.
     pub compliance: f64,
+    /// Least 1 / EI along the rod.
+    pub least_compliance: f64,
     /// Integral of EI^(-1/2) along the rod: phase by the square root of a force.
     pub root_compliance: f64,
 }
@@ -85,7 +87,12 @@ const SHORTEST: f64 = 1e-6;
 /// The mean of a function of 1 / EI between two arc lengths.
 fn mean(rod: &impl RodModel, ends: &[f64], f: impl Fn(f64) -> f64) -> f64 {
     let at = |k: usize| ends[0] + (ends[1] - ends[0]) * (k as f64 + 0.5) / POINTS as f64;
-    (0..POINTS).map(at).map(|s| f(rod.curvature_at(s, 1.0) - rod.curvature_at(s, 0.0))).sum::<f64>() / POINTS as f64
+    (0..POINTS).map(at).map(|s| f(compliance(rod, s))).sum::<f64>() / POINTS as f64
+}
+
+/// 1 / EI.
+fn compliance(rod: &impl RodModel, s: f64) -> f64 {
+    rod.curvature_at(s, 1.0) - rod.curvature_at(s, 0.0)
 }
 
 /// The components (A, B) of a force: kappa' = A cos phi + B sin phi.
@@ -122,6 +129,9 @@ impl<'a, M: RodModel> Problem<'a, M> {
             total: sum(-1.0),
             size: loads.iter().map(|(_, [fx, fy])| fx.hypot(*fy)).sum(),
             compliance: integral(rod, &[0.0, 1.0], |compliance| compliance),
+            least_compliance: (0..=PARTS)
+                .map(|k| compliance(rod, k as f64 / PARTS as f64))
+                .fold(f64::INFINITY, f64::min),
             root_compliance: integral(rod, &[0.0, 1.0], f64::sqrt),
             breaks,
         }
@@ -135,8 +145,8 @@ impl<'a, M: RodModel> Problem<'a, M> {
     /// The same of another rod.
     pub fn with_rod<'b, N>(&self, rod: &'b N) -> Problem<'b, N> {
         let (breaks, ahead) = (self.breaks.clone(), self.ahead.clone());
-        let Self { clamp, tip, total, size, compliance, root_compliance, .. } = *self;
-        Problem { rod, clamp, tip, breaks, ahead, total, size, compliance, root_compliance }
+        let Self { clamp, tip, total, size, compliance, least_compliance, root_compliance, .. } = *self;
+        Problem { rod, clamp, tip, breaks, ahead, total, size, compliance, least_compliance, root_compliance }
     }
 
     /// The same with all given forces times a factor.
@@ -153,15 +163,17 @@ impl<'a, M: RodModel> Problem<'a, M> {
 
     /// The phase of the given forces, int sqrt(force / EI) ds: the logarithm of how much the tip depends on the clamp.
     pub fn phase(&self) -> f64 {
-        let on = |(ends, [fx, fy]): (&[f64], &[f64; 2])| {
-            fx.hypot(*fy).sqrt() * integral(self.rod, ends, f64::sqrt)
-        };
+        let on = |(ends, [fx, fy]): (&[f64], &[f64; 2])| fx.hypot(*fy).sqrt() * integral(self.rod, ends, f64::sqrt);
         self.breaks.windows(2).zip(&self.ahead).map(on).sum()
     }
 
     /// The tip's coordinates along x and y that are held: 0, 1 or both.
     pub fn held(&self) -> impl Iterator<Item = usize> + Clone + '_ {
-        [self.tip.x, self.tip.y].into_iter().enumerate().filter(|(_, end)| matches!(end, TipEnd::Held(_))).map(|(k, _)| k)
+        [self.tip.x, self.tip.y]
+            .into_iter()
+            .enumerate()
+            .filter(|(_, end)| matches!(end, TipEnd::Held(_)))
+            .map(|(k, _)| k)
     }
 
     pub fn start(&self, moment: f64) -> Cut {

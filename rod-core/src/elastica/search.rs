@@ -47,6 +47,9 @@ struct Grid {
 /// Forces up to 225 E I / L^2 of a uniform rod hold the first four modes of a rod between two clamps. Of 382 equilibria
 /// of 100 random problems that a grid with steps a quarter as large finds, it misses one.
 const GRID: Grid = Grid { phase: 1.0, phases: 15, directions: 16, moments: 1.5, near: 3.0 };
+/// Largest turn of the tip between two starts of a rod that varies, rad, and most starts on either side of 0 for that.
+const MOST_APART: f64 = 1.2;
+const MOST_MOMENTS: f64 = 200.0;
 /// Sections of a rod that varies, for the grid.
 const SECTIONS: usize = 24;
 /// The largest phase of the grid, rad.
@@ -288,9 +291,12 @@ fn candidates<M: RodModel>(problem: &Problem<'_, M>, grid: &Grid, workspace: &mu
     let (mut step, mut solutions): (Vec<f64>, Vec<Vec<f64>>) = (vec![0.0; n], Vec::new());
     for (force, cell) in forces(problem, grid) {
         let size = problem.size + force[0].hypot(force[1]);
-        let bound = 1.05 * bound(problem, mean, size) + 0.05 / problem.compliance;
-        // an odd number: a straight rod is among the starts
-        let half = (4.0 + grid.moments * problem.root_compliance * size.sqrt() + turn).ceil();
+        // of a rod that softens towards the tip the moment obeys the bound of a uniform one; of others it is a guess
+        let softening = (mean * mean + 4.0 * size / problem.least_compliance).sqrt();
+        let bound = 1.05 * bound(problem, mean, size).min(softening) + 0.05 / problem.compliance;
+        let by_phase = 4.0 + grid.moments * problem.root_compliance * size.sqrt() + turn;
+        // an odd number of starts: a straight rod is among them
+        let half = by_phase.max((bound * problem.compliance / MOST_APART).min(MOST_MOMENTS)).ceil();
         for k in -(half as i32)..=half as i32 {
             let start = system.vector(&Unknowns { moment: bound * f64::from(k) / half, force });
             system.evaluate(&start, &mut residual, Some(&mut jacobian));
@@ -309,7 +315,10 @@ fn candidates<M: RodModel>(problem: &Problem<'_, M>, grid: &Grid, workspace: &mu
             }
         }
     }
-    solutions.iter().map(|u| system.unknowns(u)).collect()
+    // beyond the grid it is chance which ones are found
+    let most = (grid.phase * grid.phases as f64 / problem.root_compliance).powi(2);
+    let unknowns = solutions.iter().map(|u| system.unknowns(u));
+    unknowns.filter(|unknowns| unknowns.force[0].hypot(unknowns.force[1]) <= most).collect()
 }
 
 /// The support forces of the grid, each with the size of its cell: along the line from the clamp to the tip and in equal angles from it.

@@ -46,7 +46,8 @@ pub(super) fn unstable_directions<M: RodModel>(
         let [p, q, r, s] = [d.by_phi[2], d.by_moment[2], d.by_phi[3], d.by_moment[3]];
         // the moment at the start as a function of both angles and the force
         let start_by = [-p / q, 1.0 / q, -by_force[0][2] / q, -by_force[1][2] / q];
-        let end_by = [r + s * start_by[0], s * start_by[1], by_force[0][3] + s * start_by[2], by_force[1][3] + s * start_by[3]];
+        let end_by =
+            [r + s * start_by[0], s * start_by[1], by_force[0][3] + s * start_by[2], by_force[1][3] + s * start_by[3]];
         let columns = [own[0], own[1], Some(n), Some(n + 1)];
         for (k, column) in columns.iter().enumerate() {
             let Some(column) = *column else { continue };
