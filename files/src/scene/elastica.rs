@@ -163,7 +163,7 @@ fn scene(name: String, source: SourceText, document: &ElasticaFile) -> Result<El
     };
     let [x, y] = place.map_or(Ok([0.0; 2]), finite_point)?;
     let clamp = Pose { x, y, phi: direction.map_or(Ok(0.0), angle)? };
-    let load = |table: &Spanned<LoadTable>| {
+    let dead_load = |table: &Spanned<LoadTable>| {
         let LoadTable { s, force } = table.get_ref();
         let [fx, fy] = force.get_ref().0;
         DeadLoad { s: *s.get_ref(), fx, fy }
@@ -172,7 +172,7 @@ fn scene(name: String, source: SourceText, document: &ElasticaFile) -> Result<El
         name,
         rod,
         clamp,
-        loads: document.load.iter().map(load).collect(),
+        loads: load.iter().map(dead_load).collect(),
         tip: tip.as_ref().map_or(Ok(Tip::FREE), |table| prescribed(table.get_ref()))?,
         branches: branches.as_ref().map_or(Ok(Some(1)), count)?,
         points: points.as_ref().map_or(Ok(POINTS), number_of_points)?,
@@ -228,7 +228,10 @@ fn prescribed(table: &TipTable) -> Result<Tip, Fault> {
         point.as_ref().map(|point| (point.span(), point.get_ref().0[k]))
     };
     let one = |number: &Option<Spanned<f64>>| number.as_ref().map(|number| (number.span(), *number.get_ref()));
-    let direction = direction.as_ref().map(|field| Ok((field.span(), angle(field)?))).transpose()?;
+    let direction = match direction {
+        Some(field) => Some((field.span(), angle(field)?)),
+        None => None,
+    };
     let coordinates = [
         ("x", [("place", of(place, 0)), ("x", one(x))], [("force", of(force, 0)), ("fx", one(fx))]),
         ("y", [("place", of(place, 1)), ("y", one(y))], [("force", of(force, 1)), ("fy", one(fy))]),
