@@ -36,15 +36,25 @@ fn a_column_is_written_as_json_table_and_figure() {
     assert_eq!(figure.matches("stroke-dasharray").count(), 1);
     assert!(figure.contains("column: equilibria") && !figure.contains("NaN"));
     let (_, output) = run(&COLUMN.replace("\"all\"", "1"));
-    assert!(String::from_utf8(output.stdout).unwrap().starts_with("column: 3 equilibria found; 1 shown, see `branches`\n"));
+    assert!(
+        String::from_utf8(output.stdout).unwrap().starts_with("column: 3 equilibria found; 1 shown, see `branches`\n")
+    );
 }
 
 #[test]
 fn mistakes_name_their_place_and_write_nothing() {
     for (from, to, message) in [
         ("[0.0, -0.1865]", "[0.0, -999]", "column.toml:9:9: tip.force: the forces add up to 999.0 N, expected at most"),
-        ("angle = 90.0", "angle = 1.5708", "warning: column.toml:7:9: clamp.angle: angle is 1.5708 degrees; is 90 degrees meant?"),
-        ("force = [0.0, -0.1865]", "place = [0.0, 0.1]", "column.toml:9:9: tip.place: place is (0.0, 0.1) m, 0.1 m from the clamp"),
+        (
+            "angle = 90.0",
+            "angle = 1.5708",
+            "warning: column.toml:7:9: clamp.angle: angle is 1.5708 degrees; is 90 degrees meant?",
+        ),
+        (
+            "force = [0.0, -0.1865]",
+            "place = [0.0, 0.1]",
+            "column.toml:9:9: tip.place: place is (0.0, 0.1) m, 0.1 m from the clamp",
+        ),
     ] {
         assert!(COLUMN.contains(from));
         let (directory, output) = run(&COLUMN.replace(from, to));

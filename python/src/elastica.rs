@@ -125,7 +125,8 @@ impl PyElastica {
     fn __repr__(&self) -> String {
         let stable = if self.one.stable { "stable" } else { "unstable" };
         let Section { x, y, phi, .. } = self.tip_section();
-        format!("<vibrissa.Elastica {}: {stable}, tip at ({x:.4g}, {y:.4g}, {phi:.4g})>", self.branch)
+        let (x, y) = (1e3 * x, 1e3 * y);
+        format!("<vibrissa.Elastica {}: {stable}, tip at ({x:.3}, {y:.3}) mm, {phi:.3} rad>", self.branch)
     }
 }
 
