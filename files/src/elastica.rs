@@ -119,7 +119,7 @@ impl ElasticaRun {
             let at = tip(one);
             // no -0
             let number = |value: f64| format!("{:.6e}", value + 0.0);
-            let fixed = |value: f64| format!("{:.4}", value + 0.0);
+            let fixed = |value: f64| format!("{:.4}", (1e4 * value).round() / 1e4 + 0.0);
             let stable = match (one.stable, one.unstable_directions) {
                 (true, _) => "yes".to_owned(),
                 (false, 0) => "critical".to_owned(),

@@ -387,13 +387,17 @@ def elastica(found: list[Elastica], ax: Axes | None = None) -> Axes:
     matplotlib.axes.Axes
     """
     ax = _axes(ax)
+    tips = np.array([one.tip[:2] for one in found])
+    held = len(found) > 1 and bool(np.ptp(tips, axis=0).max() < 1e-9 * found[0].rod.length)
     for one in reversed(found):
         points = one.points
         color = _BRANCHES[one.branch % len(_BRANCHES)]
         line, width = ("solid", 2.0) if one.stable else ("dashed", 1.2)
         ax.plot(1e3 * points[:, 1], 1e3 * points[:, 2], color=color, linestyle=line, linewidth=width)
-        x, y, phi = one.tip
-        beside = (8.0 * math.cos(phi), 8.0 * math.sin(phi))
+        # all tips that are held are at one place
+        x, y, phi = points[len(points) // 2, 1:4] if held else one.tip
+        side = math.pi / 2 if held else 0.0
+        beside = (8.0 * math.cos(phi + side), 8.0 * math.sin(phi + side))
         ax.annotate(
             str(one.branch),
             (1e3 * x, 1e3 * y),

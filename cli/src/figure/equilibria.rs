@@ -9,7 +9,8 @@ use super::palette::{FIRST, INK, MUTED, OTHERS};
 use super::plane::PlaneWindow;
 use super::support;
 use rod_files::ElasticaRun;
-use vibrissa::rod::{AnyRod, ElasticaEquilibrium};
+use std::f64::consts::FRAC_PI_2;
+use vibrissa::rod::{AnyRod, ElasticaEquilibrium, TipEnd};
 
 /// Points on a shape, at least.
 const POINTS: usize = 400;
@@ -25,7 +26,7 @@ const ARROW: f64 = 110.0;
 /// Distance of a number from the tip, pixels.
 const BESIDE: f64 = 24.0;
 
-/// Draws the shapes: stable ones as lines, unstable ones dashed, and the forces that are given or of the tip's support.
+/// Draws the shapes: stable ones as lines, unstable ones dashed, and the forces that are given.
 pub(crate) fn equilibria(run: &ElasticaRun) -> Result<String, FigureError> {
     let count = POINTS.max(run.scene.points);
     let curve = |one: &ElasticaEquilibrium<AnyRod>| -> Vec<(f64, f64)> {
@@ -43,7 +44,7 @@ pub(crate) fn equilibria(run: &ElasticaRun) -> Result<String, FigureError> {
         let (head, area) = root.split_vertically(HEAD);
         write(&head, &format!("{}: equilibria", run.scene.name), (24, 36), HPos::Left, TITLE, INK)?;
         let arrows = if largest > 0.0 {
-            format!("; arrows: forces on the rod, the longest {largest:.3e} N")
+            format!("; arrows: given forces, the longest {} N", rounded(largest))
         } else {
             String::new()
         };
@@ -68,13 +69,11 @@ pub(crate) fn equilibria(run: &ElasticaRun) -> Result<String, FigureError> {
         }
         let mut labels = Labels::default();
         for (branch, one) in run.equilibria.iter().enumerate() {
-            let tip = one.shape.at(one.shape.length());
-            let (x, y) = chart.backend_coord(&(1e3 * tip.x, 1e3 * tip.y));
-            let around = [0.0, 0.9, -0.9, 1.8, -1.8].map(|turn: f64| {
-                let (sin, cos) = (tip.phi + turn).sin_cos();
+            let places = places(run, one).into_iter().map(|(at, direction)| {
+                let ((x, y), (sin, cos)) = (chart.backend_coord(&at), direction.sin_cos());
                 (x + (BESIDE * cos).round() as i32, y - (BESIDE * sin).round() as i32)
             });
-            if let Some(place) = labels.place(around, (BODY as i32, BODY as i32)) {
+            if let Some(place) = labels.place(places, (BODY as i32, BODY as i32)) {
                 write(root, &branch.to_string(), place, HPos::Center, BODY, OTHERS[branch % OTHERS.len()])?;
             }
         }
@@ -82,9 +81,30 @@ pub(crate) fn equilibria(run: &ElasticaRun) -> Result<String, FigureError> {
     })
 }
 
-/// The places (mm) and the forces (N) on the rod, without those of the clamp.
+/// Where the number of an equilibrium may stand: places on the rod (mm), and directions from there. All tips that are held are at one place.
+fn places(run: &ElasticaRun, one: &ElasticaEquilibrium<AnyRod>) -> Vec<((f64, f64), f64)> {
+    let is_held = [run.scene.tip.x, run.scene.tip.y].iter().all(|end| matches!(end, TipEnd::Held(_)));
+    let (parts, turns) = match is_held {
+        true => ([0.5, 0.6, 0.4, 0.7, 0.3], [FRAC_PI_2, -FRAC_PI_2]),
+        false => ([1.0; 5], [0.9, -0.9]),
+    };
+    let at = |part: f64| {
+        let at = one.shape.at(part * one.shape.length());
+        turns.map(|turn| ((1e3 * at.x, 1e3 * at.y), at.phi + turn))
+    };
+    parts.into_iter().flat_map(at).collect()
+}
+
+/// A number with four digits.
+fn rounded(value: f64) -> String {
+    let power = 10.0_f64.powf(3.0 - value.log10().floor());
+    format!("{}", (value * power).round() / power)
+}
+
+/// The places (mm) and the given forces (N) on the rod.
 fn forces(run: &ElasticaRun, one: &ElasticaEquilibrium<AnyRod>) -> Vec<((f64, f64), [f64; 2])> {
-    let tip = (one.shape.length(), [one.tip.fx, one.tip.fy]);
+    let given = |end: TipEnd| if let TipEnd::Loaded(force) = end { force } else { 0.0 };
+    let tip = (one.shape.length(), [given(run.scene.tip.x), given(run.scene.tip.y)]);
     let all = run.scene.loads.iter().map(|load| (load.s, [load.fx, load.fy])).chain([tip]);
     let placed = all.filter(|(_, [fx, fy])| fx.hypot(*fy) > 0.0).map(|(s, force)| {
         let at = one.shape.at(s);

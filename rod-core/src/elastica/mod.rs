@@ -2,7 +2,9 @@
 
 mod equilibria;
 pub(crate) mod loads;
+mod phase;
 mod problem;
+mod scan;
 mod search;
 mod second_variation;
 mod tip;
