@@ -21,6 +21,9 @@ pub mod derivatives {}
 #[doc = include_str!("../docs/equilibria.md")]
 pub mod equilibria {}
 
+#[doc = include_str!("../docs/elastica.md")]
+pub mod elastica {}
+
 #[doc = include_str!("../docs/fits.md")]
 pub mod fits {}
 

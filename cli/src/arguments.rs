@@ -53,6 +53,13 @@ Simulates the recording of the scene. By derivatives of the contact points with 
 it tells the standard deviation across the contour, before any correction and after the scan has calibrated itself. Then it draws
 all errors from the budget, puts them on the recording and reconstructs it, --runs times. Writes budget.json and budget.svg.";
 
+const ELASTICA: &str = "\
+Find the equilibria of a rod without contacts: cantilevers, columns that buckle, rods between two clamps.
+
+Writes elastica.json (reactions of the clamp, force and moment at the tip, energies, stability), shapes.csv (points of each shape) and
+elastica.svg. The equilibrium of the lowest potential energy is branch 0. The search is sampled: it may miss equilibria, but each that it
+gives fulfils the equations to 1e-12.";
+
 const STUDY: &str = "\
 Sweep a scene with some of its numbers changed, in all combinations, on all cores.
 
@@ -91,6 +98,15 @@ pub enum Command {
         /// The scene, a TOML file
         scene: PathBuf,
         /// Directory of the results [default: out/<name of the scene>]
+        #[arg(long, value_name = "DIR", value_parser = directory)]
+        out: Option<PathBuf>,
+    },
+    /// Find the equilibria of a rod without contacts: under given forces, with its tip loaded, pinned or clamped, and which of them are stable
+    #[command(long_about = ELASTICA, after_help = guide::ELASTICA)]
+    Elastica {
+        /// The rod, its clamp, its loads and its tip, a TOML file
+        file: PathBuf,
+        /// Directory of the results [default: out/<name of the file>]
         #[arg(long, value_name = "DIR", value_parser = directory)]
         out: Option<PathBuf>,
     },

@@ -27,6 +27,21 @@ Files: states.jsonl and states.csv (one line a pose), contacts.csv (one line a c
 (whether it is complete), sweep.svg.
 Next: open sweep.svg in a browser. `vibrissa simulate` gives the recording of a sensor along the same scene.";
 
+pub const ELASTICA: &str = "\
+Example of a file, column.toml, a column 1.2 times over its Euler load:
+  branches = \"all\"
+  [rod]
+  length = 0.1
+  bending_stiffness = 6.3e-4
+  [clamp]
+  angle = 90.0
+  [tip]
+  force = [0.0, -0.1865]
+
+  vibrissa elastica column.toml
+
+Next: open elastica.svg of the results in a browser; docs/elastica.md has loads along the rod, and tips that are pinned, clamped or guided.";
+
 pub const CONTOUR: &str = "\
 Examples:
   vibrissa contour scene.toml

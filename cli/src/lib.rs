@@ -24,5 +24,5 @@ pub use figure::FigureError;
 pub use init::{FIRST_SCENE, write_first_scene};
 pub use merged::Merged;
 pub use paper::{Paper, PaperError, PaperScan};
-pub use results::{WriteError, write_film, write_profiles, write_reconstruction, write_sweep};
+pub use results::{WriteError, write_elastica, write_film, write_profiles, write_reconstruction, write_sweep};
 pub use shapes::shapes_list;

@@ -20,8 +20,9 @@ use progress::Progress;
 use recording_arguments::Moved;
 use rod_files::output::check_output;
 use rod_files::{
-    Interrupted, LiveScan, OutputError, ReadOptions, Scan, Scene, SceneError, Sensor, SensorAddress, Setup, Simulated,
-    Simulation, StageSpec, Staged, Study, StudyRun, read_noise, read_uniform_rod, write_profile_table,
+    ElasticaScene, Interrupted, LiveScan, OutputError, ReadOptions, Scan, Scene, SceneError, Sensor, SensorAddress,
+    Setup, Simulated, Simulation, StageSpec, Staged, Study, StudyRun, read_noise, read_uniform_rod,
+    write_profile_table,
 };
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -30,7 +31,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use vibrissa::Rod;
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Known, NoiseModel};
-use vibrissa_cli::{FakeScan, Paper, Played, shapes_list, write_first_scene, write_profiles, write_sweep};
+use vibrissa_cli::{
+    FakeScan, Paper, Played, shapes_list, write_elastica, write_first_scene, write_profiles, write_sweep,
+};
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
 const UNFINISHED: u8 = 2;
@@ -53,6 +56,7 @@ fn main() -> ExitCode {
         Command::Completions { shell } => completions(shell),
         Command::Man { command } => man(command.as_deref()),
         Command::Sweep { scene, out } => sweep(&scene, out),
+        Command::Elastica { file, out } => elastica(&file, out),
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
         Command::Reconstruct(arguments) => reconstruction::reconstruct(arguments),
@@ -153,6 +157,20 @@ fn sweep(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
         Some(at) => interrupted(&scan.scene.name, at, Some("sweep.json"), &caught),
         None => verdict([&scan]),
     })
+}
+
+fn elastica(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
+    signals::end();
+    let scene = ElasticaScene::read(file)?;
+    scene.warnings.iter().for_each(|warning| warn(&format!("warning: {warning}\n")));
+    let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
+    let staged = Staged::new(&out)?.keeping(vec![scene.file.clone()]);
+    let run = scene.solve()?;
+    write_elastica(&run, &staged)?;
+    staged.publish()?;
+    say(&run.report());
+    say(&format!("written to {}\n", out.display()));
+    Ok(ExitCode::SUCCESS)
 }
 
 fn contour(

@@ -19,6 +19,7 @@ mod contour;
 mod defects;
 mod documents;
 mod edges;
+mod elastica;
 mod files;
 mod first_steps;
 mod forces;

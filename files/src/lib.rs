@@ -1,11 +1,12 @@
 #![doc = include_str!("../README.md")]
 //!
 //! `toml_file` reads TOML with errors that name the place. `scene`, `setup`, `noise_file` and `study` are such files; `recording` is a table of
-//! samples, `film` one of points on the rod and the forces from them, and `live` reads a sensor or a raw recording of one. `scan` sweeps a scene, `simulation` records it, `reconstructed` turns a
+//! samples, `film` one of points on the rod and the forces from them, and `live` reads a sensor or a raw recording of one. `elastica` is a rod without contacts, `scan` sweeps a scene, `simulation` records it, `reconstructed` turns a
 //! recording back. `output` writes files that appear when they are complete.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod cycle;
+mod elastica;
 mod film;
 mod interrupt;
 mod interval;
@@ -27,6 +28,7 @@ pub mod table;
 mod toml_file;
 
 pub use cycle::{CYCLES, Cycle};
+pub use elastica::ElasticaRun;
 pub use film::{AtRestError, Ends, FilmError, FilmForces, FilmOptions, channels_of_columns};
 pub use interrupt::{Interrupt, Interrupted};
 pub use interval::{Interval, intervals};
@@ -44,7 +46,7 @@ pub use reconstructed::{
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{
-    CalibratedRod, FilmedRod, Leg, LegPath, Scene, SceneFriction, read_calibrated_rod, read_filmed_rod,
+    CalibratedRod, ElasticaScene, FilmedRod, Leg, LegPath, Scene, SceneFriction, read_calibrated_rod, read_filmed_rod,
     read_uniform_rod, unit_of,
 };
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};

@@ -10,6 +10,7 @@ mod array;
 mod clamp;
 mod composite;
 mod derivatives;
+mod elastica;
 mod equilibrium;
 mod errors;
 mod event;
@@ -63,6 +64,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<study::PyStudy>()?;
     module.add_function(wrap_pyfunction!(study::_study_row, module)?)?;
     module.add_class::<equilibrium::PyEquilibrium>()?;
+    module.add_class::<elastica::PyElastica>()?;
     module.add_class::<follower::PyFollower>()?;
     module.add_class::<derivatives::PyDerivatives>()?;
     module.add_class::<derivatives::PyTransitionDerivatives>()?;
@@ -71,6 +73,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<forces::PyForces>()?;
     module.add_function(wrap_pyfunction!(forces::_forces, module)?)?;
     module.add_class::<live::PyLive>()?;
+    module.add_function(wrap_pyfunction!(elastica::elastica, module)?)?;
     module.add_function(wrap_pyfunction!(equilibrium::equilibrium, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(reconstruct::reconstruct, module)?)?;

@@ -6,6 +6,8 @@ Objects
     :class:`Rod`, uniform, tapered, of :class:`Section` parts, bent at rest, or on an :class:`ElasticClamp`; the shapes :class:`Line`, :class:`Parabola`,
     :class:`CircularArc`, :class:`EllipticArc`, :class:`Bezier`, :class:`Spline`, :class:`Polygon`, :class:`Svg`, :class:`Graph`,
     :class:`Curve`, or any object with ``frame(t)`` (:func:`check_contract`); :class:`Composite`.
+A rod without contacts
+    :func:`elastica` finds the equilibria under given forces, or with the tip loaded, pinned or clamped, with stability, as :class:`Elastica`.
 Paths of the clamp
     :class:`ClampPath`, :class:`ClampArc`, :class:`ClampSpline`, :class:`ClampFunction`, :class:`Chain`.
 Sweeps
@@ -40,6 +42,7 @@ from ._core import (
     Contact,
     Curve,
     Derivatives,
+    Elastica,
     ElasticClamp,
     EllipticArc,
     Equilibrium,
@@ -66,6 +69,7 @@ from ._core import (
     TransitionDerivatives,
     __version__,
     check_contract,
+    elastica,
     equilibrium,
     reconstruct,
     simulate,
@@ -92,6 +96,7 @@ __all__ = [
     "Curve",
     "Derivatives",
     "ElasticClamp",
+    "Elastica",
     "EllipticArc",
     "Equilibrium",
     "Event",
@@ -120,6 +125,7 @@ __all__ = [
     "TransitionDerivatives",
     "__version__",
     "check_contract",
+    "elastica",
     "equilibrium",
     "forces",
     "grid",

@@ -1,7 +1,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path as Path_
-from typing import Any, Literal, Protocol, TypeAlias, final
+from typing import Any, Literal, Protocol, TypeAlias, TypedDict, final
 
 import numpy as np
 import numpy.typing as npt
@@ -526,6 +526,52 @@ class Live:
     def push(self, samples: _Samples) -> _Rows: ...
     def finish(self) -> _Rows: ...
 
+class _Tip(TypedDict, total=False):
+    place: _Point | _Array
+    pose: _Pose
+    force: _Point | _Array
+    x: float
+    y: float
+    phi: float
+    fx: float
+    fy: float
+    moment: float
+
+@final
+class Elastica:
+    @property
+    def rod(self) -> Rod: ...
+    @property
+    def pose(self) -> _Pose3: ...
+    @property
+    def branch(self) -> int: ...
+    @property
+    def points(self) -> _Array: ...
+    @property
+    def reactions(self) -> tuple[float, float, float]: ...
+    @property
+    def tip(self) -> _Pose3: ...
+    @property
+    def tip_load(self) -> tuple[float, float, float]: ...
+    @property
+    def energy(self) -> float: ...
+    @property
+    def potential_energy(self) -> float: ...
+    @property
+    def stable(self) -> bool: ...
+    @property
+    def unstable_directions(self) -> int: ...
+    @property
+    def residual(self) -> float: ...
+
+def elastica(
+    rod: Rod,
+    pose: _Pose,
+    loads: Sequence[Sequence[float]] | _Array = (),
+    tip: _Tip | None = None,
+    branches: int | Literal["all"] = 1,
+    points: int = 200,
+) -> list[Elastica]: ...
 def _study_row(text: str, file: str | PathLike[str]) -> tuple[Any, ...]: ...
 def equilibrium(rod: Rod, objects: _Objects, pose: _Pose, guess: Sequence[Contact]) -> Equilibrium: ...
 def simulate(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from ._core import Composite, Reconstruction, Rod, Scan, single
+from ._core import Composite, Elastica, Reconstruction, Rod, Scan, single
 from ._tables import optional
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ __all__ = [
     "animate",
     "contour",
     "criterion",
+    "elastica",
     "hysteresis",
     "notches",
     "object_outline",
@@ -364,6 +365,52 @@ def criterion(scan: Scan, ax: Axes | None = None) -> Axes:
     ax.axhline(0.0, color="black", linewidth=0.6, zorder=0)
     ax.set_xlabel(label)
     ax.set_ylabel("K in (N mm)²")
+    return ax
+
+
+# Of equilibria without contacts, in turn: none of these is that of a phase.
+_BRANCHES = ["#332288", "#999933", "#882255"]
+
+
+def elastica(found: list[Elastica], ax: Axes | None = None) -> Axes:
+    """Draw equilibria of a rod without contacts: stable ones as lines, unstable ones dashed, each with its number at the tip.
+
+    Parameters
+    ----------
+    found : list of Elastica
+        What to draw.
+    ax : matplotlib.axes.Axes, optional
+        Where.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+    """
+    ax = _axes(ax)
+    tips = np.array([one.tip[:2] for one in found])
+    held = len(found) > 1 and bool(np.ptp(tips, axis=0).max() < 1e-9 * found[0].rod.length)
+    for one in reversed(found):
+        points = one.points
+        color = _BRANCHES[one.branch % len(_BRANCHES)]
+        line, width = ("solid", 2.0) if one.stable else ("dashed", 1.2)
+        ax.plot(1e3 * points[:, 1], 1e3 * points[:, 2], color=color, linestyle=line, linewidth=width)
+        # all tips that are held are at one place
+        x, y, phi = points[len(points) // 2, 1:4] if held else one.tip
+        side = math.pi / 2 if held else 0.0
+        beside = (8.0 * math.cos(phi + side), 8.0 * math.sin(phi + side))
+        ax.annotate(
+            str(one.branch),
+            (1e3 * x, 1e3 * y),
+            beside,
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            color=color,
+            fontsize="small",
+        )
+    ax.set_aspect("equal")
+    ax.set_xlabel("x in mm")
+    ax.set_ylabel("y in mm")
     return ax
 
 

@@ -4,6 +4,7 @@
 //! - [`Sample`]: where the clamp was and what it felt, as a sensor measures it.
 //! - [`advance`], [`advance_with_sensitivities`], [`walk`], [`stations`]: one segment between two contacts in closed form.
 //! - [`inflection`]: where a segment is straight.
+//! - [`elastica_equilibria`]: the equilibria of a rod without contacts, under dead loads, with its [`Tip`] loaded or held, and their stability.
 //! - [`Elastica`]: the whole rod under any number of forces. [`GeneralElastica`] and [`Propagator`]: the same through the closed
 //!   form or through differential equations ([`Ode`]), the way for rods that vary along their length.
 //! - [`RodModel`]: what a rod of any kind answers, with exact derivatives. [`Uniform`], [`Sections`], [`Smooth`].
@@ -59,7 +60,10 @@ pub use any_rod::{AnyClamp, AnyRod};
 #[cfg(feature = "std")]
 pub use clamp::{Clamp, ClampLaw, Elastic, ElasticClamp, Pivot, Roller, RollerHold};
 #[cfg(feature = "std")]
-pub use elastica::{Elastica, Load};
+pub use elastica::{
+    DeadLoad, Elastica, ElasticaArgument, ElasticaEquilibrium, ElasticaError, Load, Tip, TipEnd, TipLoad,
+    elastica_equilibria,
+};
 pub use error::RodError;
 #[cfg(feature = "std")]
 pub use judges::GeneralElastica;

@@ -70,7 +70,7 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
         }
         let length = window.scale * ARROW / largest;
         for contact in judged().flat_map(|judged| &judged.contacts) {
-            for line in arrow(contact, length, window.scale) {
+            for line in arrow((1e3 * contact.x, 1e3 * contact.y), [contact.fx, contact.fy], length, window.scale) {
                 chart.draw_series([Element::line(line, FIRST.stroke_width(LINE / 2))])?;
             }
         }
@@ -119,15 +119,15 @@ fn rim(pole: &FilmPole, size: f64) -> Vec<Curve> {
     cross.into_iter().chain(rim).collect()
 }
 
-/// The lines of an arrow that ends in a contact.
-fn arrow(contact: &FrameContact, length: f64, pixel: f64) -> [Curve; 2] {
-    let to = (1e3 * contact.x, 1e3 * contact.y);
+/// The lines of the arrow of a force that ends where it acts; `length` (mm) is that of the unit of force, `pixel` (mm) the size of a pixel.
+pub(super) fn arrow(to: (f64, f64), [fx, fy]: [f64; 2], length: f64, pixel: f64) -> [Curve; 2] {
+    let force = fx.hypot(fy);
     let back = |along: f64, across: f64| {
-        let (x, y) = (contact.fx / contact.force, contact.fy / contact.force);
+        let (x, y) = (fx / force, fy / force);
         (to.0 - along * x - across * y, to.1 - along * y + across * x)
     };
     let head = 10.0 * pixel;
-    [vec![back(length * contact.force, 0.0), to], vec![back(head, 0.5 * head), to, back(head, -0.5 * head)]]
+    [vec![back(length * force, 0.0), to], vec![back(head, 0.5 * head), to, back(head, -0.5 * head)]]
 }
 
 /// Draws force and place of the first contact and the moment at the base over the frames, with one standard deviation on either side.

@@ -6,8 +6,8 @@ use super::element::Element;
 use super::palette::{INK, WHITE};
 use super::plane::PlaneWindow;
 use std::f64::consts::{FRAC_PI_2, TAU};
-use vibrissa::State;
 use vibrissa::rod::{AnyRod, PhysicalRod};
+use vibrissa::{Pose, State};
 
 /// Distance of the plate from the base of the rod, half of its width, and half of the width of the spring, pixels.
 const BEHIND: f64 = 44.0;
@@ -47,15 +47,28 @@ pub(super) fn draw(chart: &Chart<'_>, window: &PlaneWindow, rod: &AnyRod, state:
     Ok(())
 }
 
-/// Lines (pixels, the rod runs to +x from the origin) of a plate that moves with the clamp, and of what connects it to the rod: a coil spring
-/// if the base moves, a spiral one if it turns.
-fn springs_behind(moves: bool, turns: bool) -> Vec<Vec<(f64, f64)>> {
+/// Draws a rigid clamp: the plate without springs, at the base of the rod.
+pub(super) fn draw_rigid(chart: &Chart<'_>, window: &PlaneWindow, pose: Pose) -> Result<(), FigureError> {
+    let frame = DrawingFrame::new((pose.x, pose.y), pose.phi, window.scale);
+    let at_base = |line: Vec<(f64, f64)>| line.into_iter().map(|(x, y)| (x + BEHIND, y)).collect();
+    chart.draw_series(plate().into_iter().map(at_base).map(|line| frame.line(line)))
+}
+
+/// Lines (pixels) of a plate behind the base and its strokes.
+fn plate() -> Vec<Vec<(f64, f64)>> {
     let mut lines = vec![vec![(-BEHIND, -PLATE), (-BEHIND, PLATE)]];
     let apart = 2.0 * PLATE / STROKES as f64;
     lines.extend((0..STROKES).map(|k| {
         let y = -PLATE + (k as f64 + 1.0) * apart;
         vec![(-BEHIND, y), (-BEHIND - STROKE, y - STROKE)]
     }));
+    lines
+}
+
+/// Lines (pixels, the rod runs to +x from the origin) of a plate that moves with the clamp, and of what connects it to the rod: a coil spring
+/// if the base moves, a spiral one if it turns.
+fn springs_behind(moves: bool, turns: bool) -> Vec<Vec<(f64, f64)>> {
+    let mut lines = plate();
     let mut rest = vec![(0.0, 0.0)];
     if moves {
         let pitch = (BEHIND - 2.0 * END) / (CORNERS as f64 - 1.0);

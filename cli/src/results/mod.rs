@@ -1,7 +1,7 @@
 //! The files of results with their figures.
 
 use crate::figure::{self, FigureError};
-use rod_files::{FilmForces, OutputError, Profile, Reconstructed, Scan, Staged, write_profile_table};
+use rod_files::{ElasticaRun, FilmForces, OutputError, Profile, Reconstructed, Scan, Staged, write_profile_table};
 use std::path::{Path, PathBuf};
 
 /// Why results cannot be written.
@@ -81,4 +81,15 @@ pub fn write_profiles(
     staged.write(&file.with_extension("svg"), |out| out.write_all(figure.as_bytes()))?;
     staged.publish()?;
     Ok(out.with_extension("svg"))
+}
+
+/// Writes elastica.json, shapes.csv and elastica.svg into the staged directory.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write_elastica(run: &ElasticaRun, staged: &Staged) -> Result<(), WriteError> {
+    let figure = figure::equilibria(run)?;
+    run.write(staged)?;
+    staged.write(Path::new("elastica.svg"), |file| file.write_all(figure.as_bytes()))?;
+    Ok(())
 }

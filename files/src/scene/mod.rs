@@ -6,6 +6,7 @@
 
 mod check;
 mod document;
+mod elastica;
 mod friction;
 mod known_rod;
 mod leg;
@@ -15,6 +16,7 @@ mod rod;
 mod rod_table;
 mod shape;
 
+pub use elastica::ElasticaScene;
 pub use friction::SceneFriction;
 pub use known_rod::{CalibratedRod, read_calibrated_rod, read_uniform_rod, unit_of};
 pub use leg::{Leg, LegPath};

@@ -97,7 +97,7 @@ pub(super) fn uniform(table: &Spanned<RodTable>, instead: &str) -> Result<Rod, F
 }
 
 /// The rod of a table, clamped rigidly.
-fn alone(table: &Spanned<RodTable>) -> Result<AnyRod, Fault> {
+pub(super) fn alone(table: &Spanned<RodTable>) -> Result<AnyRod, Fault> {
     spec(table)?.build().map_err(|fault| fault_in_table(table, fault))
 }
 

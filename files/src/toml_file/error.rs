@@ -162,9 +162,15 @@ impl SourceText {
 
     /// An error at the value of a field, given its path as in `sweep.from`.
     pub fn error(&self, field: &str, message: &str) -> SceneError {
+        self.error_at(&[field], message)
+    }
+
+    /// An error at the first of these fields that the text has.
+    pub fn error_at(&self, fields: &[impl AsRef<str>], message: &str) -> SceneError {
         let table = DeTable::parse(&self.text).ok();
         let table = table.as_ref().map(Spanned::get_ref);
-        let span = table.and_then(|table| place_of(table, field)).unwrap_or(0..0);
+        let place = |table: &DeTable<'_>| fields.iter().find_map(|field| place_of(table, field.as_ref()));
+        let span = table.and_then(place).unwrap_or(0..0);
         Fault::new(span, message).in_text(&self.file, &self.text, table)
     }
 }

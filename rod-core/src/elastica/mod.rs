@@ -1,8 +1,17 @@
-//! The shape of a rod under any number of point forces.
+//! The shape of a rod under any number of point forces, and the equilibria of a rod without contacts.
 
+mod equilibria;
 pub(crate) mod loads;
+mod phase;
+mod problem;
+mod scan;
+mod search;
+mod second_variation;
+mod tip;
 
+pub use equilibria::{ElasticaEquilibrium, TipLoad, elastica_equilibria};
 pub use loads::Load;
+pub use tip::{DeadLoad, ElasticaArgument, ElasticaError, Tip, TipEnd};
 
 use crate::error::{RodError, finite};
 use crate::model::{Cut, RodModel, Uniform};

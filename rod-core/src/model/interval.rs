@@ -36,6 +36,11 @@ impl Chain {
         self.by.map(|[_, _, phi, moment]| [phi, moment])
     }
 
+    /// All of them: (x, y, phi, moment) by the moment at the start, A and B.
+    pub fn all(&self) -> [[f64; 4]; 3] {
+        self.by
+    }
+
     /// One part more, by what it adds to the position, and angle and moment at its end.
     pub fn extend(&mut self, ends: [[f64; 4]; 3]) {
         for (by, [x, y, phi, moment]) in self.by.iter_mut().zip(ends) {

@@ -11,6 +11,7 @@ mod sections;
 mod smooth;
 pub(crate) mod uniform;
 
+pub(crate) use interval::Chain;
 pub use interval::CutSensitivities;
 pub use profile::{Bent, Cone, Profile};
 pub(crate) use propagator::check;
