@@ -125,7 +125,8 @@ impl PyElastica {
     fn __repr__(&self) -> String {
         let stable = if self.one.stable { "stable" } else { "unstable" };
         let Section { x, y, phi, .. } = self.tip_section();
-        let (x, y) = (1e3 * x, 1e3 * y);
+        // no -0.000
+        let [x, y, phi] = [1e3 * x, 1e3 * y, phi].map(|value| (1e3 * value).round() / 1e3 + 0.0);
         format!("<vibrissa.Elastica {}: {stable}, tip at ({x:.3}, {y:.3}) mm, {phi:.3} rad>", self.branch)
     }
 }
