@@ -7,6 +7,7 @@
 
 mod cycle;
 mod film;
+mod inspect;
 mod interrupt;
 mod interval;
 mod live;
@@ -28,6 +29,10 @@ mod toml_file;
 
 pub use cycle::{CYCLES, Cycle};
 pub use film::{AtRestError, Ends, FilmError, FilmForces, FilmOptions, channels_of_columns};
+pub use inspect::{
+    Certainty, Fact, InspectFault, InspectOptions, InspectedColumn, InspectedFile, Inspection, Question, ReadCommand,
+    RodInspected, inspect, quoted,
+};
 pub use interrupt::{Interrupt, Interrupted};
 pub use interval::{Interval, intervals};
 pub use live::{

@@ -1,0 +1,295 @@
+//! Axes, signs and units of reactions, as the physics prefers them.
+//!
+//! Forces have eight sets of axes and signs in the plane, the moment has two signs. In each of the sixteen frames a single frictionless
+//! contact satisfies one of two conditions in all samples: m0z^2 = 2 EI (f0y sin phi0 + f0x cos phi0), or the contact is at the tip
+//! (Merker et al. 2020, eq. 18 and 20). These conditions do not change where the rod and all loads are mirrored about the clamp's axis; the
+//! work of the clamp does, which must be the change of the elastic energy. Without a rod the stiffness is that of the line of tangential
+//! contacts, and the length that of the contacts off this line.
+
+use super::energy::bending_energy;
+use nalgebra::Matrix3;
+use vibrissa::Rod;
+use vibrissa::Sample;
+use vibrissa::reconstruct::noise_estimate::estimate;
+use vibrissa::reconstruct::{plausibility, single};
+use vibrissa::rod::Reactions;
+
+/// Most averages of consecutive samples. More: more time; fewer: short phases are averaged out.
+const MOST: usize = 300;
+/// Averages over which energy and work are compared. Larger: less noise, fewer comparisons.
+const LAG: usize = 4;
+/// Standard deviations within which a reaction is noise.
+const SIGMAS: f64 = 4.0;
+/// Error allowed in the length of the rod and, relative to m0z^2, in the phase criterion.
+const SLACK: f64 = 0.03;
+/// Largest error allowed in the place of a contact, however large the noise, in lengths of the rod.
+const WIDEST: f64 = 0.3;
+/// Fewest averages in contact.
+const FEWEST: usize = 12;
+/// Share of the averages that satisfy one of the conditions in the preferred frame, at least.
+const SHARE: f64 = 0.7;
+/// Difference of the scores of the best two frames, at least. Scores are at most 3.
+const MARGIN: f64 = 0.3;
+/// The unit is another one where the slope of the line is within this factor of that of the rod in that unit.
+const NEAR: f64 = 2.0;
+
+/// A frame of the reactions: which column is which, and with what sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct ReactionFrame {
+    /// Whether f0x is the column of y and f0y that of x.
+    pub swapped: bool,
+    /// Whether the signs of f0x, f0y, m0z, as they result, are turned.
+    pub turned: [bool; 3],
+}
+
+impl ReactionFrame {
+    const AS_IS: Self = Self { swapped: false, turned: [false; 3] };
+
+    fn all() -> impl Iterator<Item = Self> {
+        (0..16_u8).map(|k| Self { swapped: k & 8 > 0, turned: [k & 1 > 0, k & 2 > 0, k & 4 > 0] })
+    }
+
+    pub fn is_as_is(self) -> bool {
+        self == Self::AS_IS
+    }
+
+    /// Loads on the sensor in place of reactions of the clamp.
+    pub fn is_load(self) -> bool {
+        !self.swapped && self.turned == [true; 3]
+    }
+
+    fn of(self, Reactions { f0x, f0y, m0z }: Reactions) -> Reactions {
+        let [x, y, z] = self.turned.map(|turned| if turned { -1.0 } else { 1.0 });
+        let (f0x, f0y) = if self.swapped { (f0y, f0x) } else { (f0x, f0y) };
+        Reactions { f0x: x * f0x, f0y: y * f0y, m0z: z * m0z }
+    }
+
+    /// In words, where the columns are called so.
+    pub fn text(self, names: [&str; 3]) -> String {
+        let [x, y, z] = if self.swapped { [names[1], names[0], names[2]] } else { names };
+        let sign = |turned: bool| if turned { "-" } else { "" };
+        let [a, b, c] = self.turned.map(sign);
+        format!("f0x = {a}{x}, f0y = {b}{y}, m0z = {c}{z}")
+    }
+}
+
+/// A frame with how well it explains the samples.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rated {
+    pub frame: ReactionFrame,
+    /// Share of the averages that satisfy one of the two conditions.
+    pub explained: f64,
+    /// Share that some single contact explains.
+    pub possible: f64,
+    /// Correlation of the work of the clamp and the change of the energy.
+    pub energy: f64,
+    /// Bending stiffness of the line over that of the rod, in the units found; 1 without either.
+    pub stiffness: f64,
+    /// N and N m of the units of forces and moments that fit the rod.
+    pub units: [f64; 2],
+}
+
+impl Rated {
+    fn score(&self) -> f64 {
+        self.explained + self.possible + self.energy
+    }
+}
+
+/// The frame that the physics prefers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FrameVerdict {
+    pub best: Rated,
+    pub second: Rated,
+    /// Whether the best is so much better that it can be relied on.
+    pub is_decided: bool,
+}
+
+/// What is known before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Before<'r> {
+    pub rod: Option<&'r Rod>,
+    /// Whether the units of forces and moments are known.
+    pub units: [bool; 2],
+}
+
+/// The frame of samples; none where too few are in contact. Reactions whose unit is not known are taken as N and N m.
+pub(super) fn frame(samples: &[Sample], before: Before<'_>) -> Option<FrameVerdict> {
+    let (averages, noise) = averages(samples)?;
+    let mut rated: Vec<Rated> =
+        ReactionFrame::all().filter_map(|frame| rate(&averages, noise, frame, before)).collect();
+    rated.sort_by(|a, b| b.score().total_cmp(&a.score()));
+    let [best, second] = [*rated.first()?, *rated.get(1)?];
+    let is_decided = best.explained >= SHARE && best.energy > 0.0 && best.score() - second.score() >= MARGIN;
+    Some(FrameVerdict { best, second, is_decided })
+}
+
+/// Means of consecutive samples, and the standard deviations of the reactions in them.
+fn averages(samples: &[Sample]) -> Option<(Vec<Sample>, [f64; 3])> {
+    let channels: [fn(&Sample) -> f64; 3] = [|s| s.reactions.f0x, |s| s.reactions.f0y, |s| s.reactions.m0z];
+    let count: Vec<f64> = (0..samples.len()).map(|k| k as f64).collect();
+    let length = samples.len().div_ceil(MOST).max(1);
+    let noise = channels.map(|channel| {
+        let values: Vec<f64> = samples.iter().map(channel).collect();
+        let found = estimate(&count, &values);
+        let long_run = if length > 1 { found.long_run.max(1.0) } else { 1.0 };
+        found.sigma * (long_run / length as f64).sqrt()
+    });
+    let averages: Vec<Sample> = samples
+        .chunks(length)
+        .map(|part| {
+            let mean = |of: &dyn Fn(&Sample) -> f64| part.iter().map(of).sum::<f64>() / part.len() as f64;
+            let [f0x, f0y, m0z] = channels.map(|channel| mean(&channel));
+            let [x, y, phi] = [mean(&|s| s.pose.x), mean(&|s| s.pose.y), mean(&|s| s.pose.phi)];
+            Sample::new(vibrissa::Pose { x, y, phi }, Reactions { f0x, f0y, m0z })
+        })
+        .filter(|sample| {
+            let Reactions { f0x, f0y, m0z } = sample.reactions;
+            [sample.pose.x, sample.pose.y, sample.pose.phi, f0x, f0y, m0z].iter().all(|value| value.is_finite())
+        })
+        .collect();
+    (averages.len() > FEWEST).then_some((averages, noise))
+}
+
+fn rate(averages: &[Sample], noise: [f64; 3], frame: ReactionFrame, before: Before<'_>) -> Option<Rated> {
+    let samples: Vec<Sample> =
+        averages.iter().map(|sample| Sample { reactions: frame.of(sample.reactions), ..*sample }).collect();
+    let slope = plausibility(&Rod::new(1.0, 1.0).ok()?, &samples).line.map(|line| line.slope).filter(|slope| *slope > 0.0);
+    let (units, stiffness) = match (before.rod, slope) {
+        (Some(rod), Some(slope)) => units(slope / rod.bending_stiffness(), before.units),
+        _ => ([1.0; 2], 1.0),
+    };
+    let scaled = |sample: &Sample| {
+        let Reactions { f0x, f0y, m0z } = sample.reactions;
+        let reactions = Reactions { f0x: units[0] * f0x, f0y: units[0] * f0y, m0z: units[1] * m0z };
+        Sample { reactions, ..*sample }
+    };
+    let samples: Vec<Sample> = samples.iter().map(scaled).collect();
+    let swapped = if frame.swapped { [noise[1], noise[0], noise[2]] } else { noise };
+    let noise = [units[0] * swapped[0].max(swapped[1]), units[1] * swapped[2]];
+    let stiff = match before.rod {
+        Some(rod) => rod.bending_stiffness() * if (0.5..2.0).contains(&stiffness) { stiffness } else { 1.0 },
+        None => slope?,
+    };
+    let length = before.rod.map(Rod::length);
+    let (explained, possible, energy) = agreement(&samples, noise, stiff, length)?;
+    Some(Rated { frame, explained, possible, energy, stiffness, units })
+}
+
+/// Units of forces and moments, and what remains of the ratio of the line's slope to the stiffness in them.
+fn units(ratio: f64, known: [bool; 2]) -> ([f64; 2], f64) {
+    let forces: &[f64] = if known[0] { &[1.0] } else { &[1.0, 1e-3] };
+    let moments: &[f64] = if known[1] { &[1.0] } else { &[1.0, 1e-3, 1e-6] };
+    let all = forces.iter().flat_map(|force| moments.iter().map(move |moment| [*force, *moment]));
+    let rest = |units: [f64; 2]| ratio * units[1].powi(2) / units[0];
+    let best = all.min_by(|a, b| rest(*a).ln().abs().total_cmp(&rest(*b).ln().abs())).unwrap_or([1.0; 2]);
+    let is_near = rest(best).ln().abs() < NEAR.ln();
+    if is_near { (best, rest(best)) } else { ([1.0; 2], ratio) }
+}
+
+/// Shares of the averages in contact that satisfy a condition and that are possible, and the correlation of work and energy.
+fn agreement(samples: &[Sample], noise: [f64; 2], stiffness: f64, length: Option<f64>) -> Option<(f64, f64, f64)> {
+    let force = |sample: &Sample| sample.reactions.f0x.hypot(sample.reactions.f0y);
+    let largest = samples.iter().map(force).fold(0.0, f64::max);
+    let touches = |sample: &Sample| {
+        let force = force(sample);
+        force > 1e-6 * largest && (force > SIGMAS * noise[0] || sample.reactions.m0z.abs() > SIGMAS * noise[1])
+    };
+    // the length does not matter to where the moment vanishes
+    let rod = Rod::new(length.unwrap_or((stiffness / largest).sqrt()), stiffness).ok()?;
+    let found: Vec<Option<Touched>> = samples
+        .iter()
+        .map(|sample| touches(sample).then(|| Touched::of(&rod, sample, noise, stiffness)))
+        .collect();
+    let contacts: Vec<&Touched> = found.iter().flatten().collect();
+    if contacts.len() < FEWEST {
+        return None;
+    }
+    let length = length.or_else(|| length_of(&contacts))?;
+    let share = |holds: &dyn Fn(&Touched) -> bool| {
+        contacts.iter().filter(|touched| holds(touched)).count() as f64 / contacts.len() as f64
+    };
+    let possible = |touched: &Touched| touched.excess <= touched.slack && touched.s <= (1.0 + touched.reach) * length;
+    let explained = share(&|touched| {
+        possible(touched)
+            && (touched.excess.abs() <= touched.slack || (touched.s / length - 1.0).abs() <= touched.reach)
+    });
+    let energies: Vec<f64> = found
+        .iter()
+        .zip(samples)
+        .map(|(touched, sample)| {
+            touched.as_ref().map_or(0.0, |touched| {
+                if touched.s.is_finite() { bending_energy(sample, stiffness, touched.s) } else { 0.0 }
+            })
+        })
+        .collect();
+    let contact: Vec<bool> = found.iter().map(Option::is_some).collect();
+    Some((explained, share(&possible), correlation(samples, &contact, &energies)))
+}
+
+/// An average in contact.
+struct Touched {
+    /// Where the moment vanishes; infinite where it does not.
+    s: f64,
+    /// m0z^2 - 2 EI (f0y sin phi0 + f0x cos phi0), and what noise and rod may make of it.
+    excess: f64,
+    slack: f64,
+    /// Relative error of the place that is allowed.
+    reach: f64,
+}
+
+impl Touched {
+    fn of(rod: &Rod, sample: &Sample, noise: [f64; 2], stiffness: f64) -> Self {
+        let Reactions { f0x, f0y, m0z } = sample.reactions;
+        let (sin, cos) = sample.pose.phi.sin_cos();
+        let touch = single(rod, sample.pose, sample.reactions, &Matrix3::zeros());
+        let s = touch.map_or_else(|none| none.touch().map_or(f64::INFINITY, |touch| touch.s), |touch| touch.s);
+        let relative = |noise: f64, value: f64| SIGMAS * noise / value.abs().max(f64::MIN_POSITIVE);
+        Self {
+            s,
+            excess: m0z * m0z - 2.0 * stiffness * (f0y * sin + f0x * cos),
+            slack: SLACK * m0z * m0z + SIGMAS * (2.0 * m0z.abs() * noise[1] + 2.8 * stiffness * noise[0]),
+            reach: (SLACK + relative(noise[1], m0z) + relative(noise[0], f0x.hypot(f0y))).min(WIDEST),
+        }
+    }
+}
+
+/// The length of the rod, from the contacts that are not tangential: half of them are at the tip, or more.
+fn length_of(contacts: &[&Touched]) -> Option<f64> {
+    let finite = contacts.iter().filter(|touched| touched.s.is_finite());
+    let mut off: Vec<f64> = finite.clone().filter(|touched| touched.excess < -touched.slack).map(|touched| touched.s).collect();
+    if 10 * off.len() < contacts.len() {
+        return finite.map(|touched| touched.s).max_by(f64::total_cmp).map(|most| (1.0 + SLACK) * most);
+    }
+    off.sort_unstable_by(f64::total_cmp);
+    off.get(off.len() / 2).copied()
+}
+
+/// Correlation, about 0, of the work of the clamp and the change of the elastic energy. Jumps, in which energy is lost, count little.
+fn correlation(samples: &[Sample], contact: &[bool], energies: &[f64]) -> f64 {
+    let work = |k: usize| {
+        let (a, b) = (&samples[k], &samples[k + 1]);
+        let mean = |of: fn(&Reactions) -> f64| {
+            0.5 * [(a, contact[k]), (b, contact[k + 1])].iter().filter(|one| one.1).map(|one| of(&one.0.reactions)).sum::<f64>()
+        };
+        mean(|r| r.f0x) * (b.pose.x - a.pose.x)
+            + mean(|r| r.f0y) * (b.pose.y - a.pose.y)
+            + mean(|r| r.m0z) * (b.pose.phi - a.pose.phi)
+    };
+    let steps: Vec<(f64, f64)> = (0..samples.len().saturating_sub(LAG))
+        .step_by(LAG)
+        .filter(|&k| contact[k] || contact[k + LAG])
+        .map(|k| ((k..k + LAG).map(work).sum(), energies[k + LAG] - energies[k]))
+        .collect();
+    let limit = |of: fn(&(f64, f64)) -> f64| {
+        let mut sizes: Vec<f64> = steps.iter().map(|step| of(step).abs()).collect();
+        sizes.sort_unstable_by(f64::total_cmp);
+        sizes.get(sizes.len() * 9 / 10).copied().unwrap_or_default()
+    };
+    let limits = [limit(|step| step.0), limit(|step| step.1)];
+    let sums = steps.iter().fold([0.0; 3], |[wu, ww, uu], (w, u)| {
+        let (w, u) = (w.clamp(-limits[0], limits[0]), u.clamp(-limits[1], limits[1]));
+        [wu + w * u, ww + w * w, uu + u * u]
+    });
+    let found = sums[0] / (sums[1] * sums[2]).sqrt();
+    if found.is_finite() { found } else { 0.0 }
+}
