@@ -6,6 +6,7 @@ mod arguments;
 mod error;
 mod film;
 mod guide;
+mod inspection;
 mod progress;
 mod reconstruction;
 mod recording_arguments;
@@ -55,6 +56,7 @@ fn main() -> ExitCode {
         Command::Sweep { scene, out } => sweep(&scene, out),
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
+        Command::Inspect(arguments) => inspection::inspect(arguments),
         Command::Reconstruct(arguments) => reconstruction::reconstruct(arguments),
         Command::Forces(arguments) => film::forces(arguments),
         Command::Budget(arguments) => accuracy::expect(arguments),
@@ -373,6 +375,12 @@ fn interrupted(name: &str, at: &Interrupted, marked: Option<&str>, caught: &sign
 
 /// Shows an error: with the place in the scene for people, on one line for everything else.
 fn complain(error: Error) {
+    let hint = error.unread_table().map(|file| format!("`vibrissa inspect {file}` shows what the file holds.\n"));
+    complain_of(error);
+    hint.iter().for_each(|hint| warn(hint));
+}
+
+fn complain_of(error: Error) {
     if io::stderr().is_terminal() {
         warn(&format!("{:?}\n", miette::Report::new(error)));
     } else {

@@ -52,7 +52,8 @@ impl From<Written> for ReadOptions {
         });
         let decimal = written.decimal.map(|name| if name == "comma" { Decimal::Comma } else { Decimal::Point });
         let header = written.header.unwrap_or_default();
-        let (stage_units, units): (Vec<_>, Vec<_>) = written.unit.into_iter().partition(|unit| unit.0.starts_with(STAGE));
+        let (stage_units, units): (Vec<_>, Vec<_>) =
+            written.unit.into_iter().partition(|unit| unit.0.starts_with(STAGE));
         let stage_units: Vec<(String, String)> =
             stage_units.into_iter().map(|(name, unit)| (name.trim_start_matches(STAGE).to_owned(), unit)).collect();
         let (stage_columns, columns): (Vec<Meaning>, Vec<Meaning>) =
@@ -60,14 +61,8 @@ impl From<Written> for ReadOptions {
         let map = |columns: Vec<Meaning>| {
             columns.into_iter().fold(ColumnMap::new(), |map, meaning| map.with(meaning.role, meaning.column))
         };
-        let options = TableOptions {
-            delimiter,
-            decimal,
-            header,
-            units,
-            segment: written.segment,
-            ..TableOptions::default()
-        };
+        let options =
+            TableOptions { delimiter, decimal, header, units, segment: written.segment, ..TableOptions::default() };
         let is_apart = !stage_units.is_empty() || !stage_columns.is_empty();
         let stage = is_apart.then(|| {
             // its layout is detected: it may be written in another way

@@ -15,7 +15,9 @@ pub(super) fn tdms(path: &Path, file: &mut InspectedFile) {
     for group in opened.groups() {
         let channels: Vec<String> = group
             .channels()
-            .map(|channel| channel.unit().map_or_else(|| channel.name().to_owned(), |unit| format!("{} [{unit}]", channel.name())))
+            .map(|channel| {
+                channel.unit().map_or_else(|| channel.name().to_owned(), |unit| format!("{} [{unit}]", channel.name()))
+            })
             .collect();
         file.fact("group", format!("`{}` with {}", group.name(), channels.join(", ")));
     }
@@ -24,7 +26,9 @@ pub(super) fn tdms(path: &Path, file: &mut InspectedFile) {
     }
     file.questions.push(Question {
         text: "which channels of which group are the gauges, and what makes N and N m of their values?".to_owned(),
-        answers: vec!["--setup FILE with calibration or matrix in [sensor], and group and columns in [recording]".to_owned()],
+        answers: vec![
+            "--setup FILE with calibration or matrix in [sensor], and group and columns in [recording]".to_owned(),
+        ],
     });
 }
 
@@ -53,7 +57,10 @@ pub(super) fn mcap(path: &Path, file: &mut InspectedFile) -> Option<String> {
         [] => file.prevents(None, "topics", "no wrench", "a topic of geometry_msgs/WrenchStamped"),
         _ => file.questions.push(Question {
             text: "which topic is that of the sensor at the clamp?".to_owned(),
-            answers: wrenches.iter().map(|name| format!("--setup FILE with topic = \"{name}\" in [recording]")).collect(),
+            answers: wrenches
+                .iter()
+                .map(|name| format!("--setup FILE with topic = \"{name}\" in [recording]"))
+                .collect(),
         }),
     }
     None

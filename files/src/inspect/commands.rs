@@ -92,13 +92,15 @@ fn reactions(look: &mut Look, options: &InspectOptions) -> ReadCommand {
                 names: all.map(|column| name_of(table, column.column)),
                 units: all.map(|column| column.unit),
                 is_turned: all.map(|column| column.is_turned),
-                is_own: all.iter().all(|column| column.is_recognized) || [Role::F0x, Role::F0y, Role::M0z].into_iter().any(is_given),
+                is_own: all.iter().all(|column| column.is_recognized)
+                    || [Role::F0x, Role::F0y, Role::M0z].into_iter().any(is_given),
             };
             let rod = rod(options).map(|rod| &rod.rod);
             physics(&mut look.report, &samples, &reacting, rod, Some(&mut look.proposal));
         }
     }
-    let words = [start("reconstruct", &look.path, options), look.proposal.layout_words(), look.proposal.words("")].concat();
+    let words =
+        [start("reconstruct", &look.path, options), look.proposal.layout_words(), look.proposal.words("")].concat();
     let reads = is_answered(&look.report)
         && scan(options, Setup::default(), None, look.proposal.read())
             .is_some_and(|scan| tried(&scan, &look.path, &mut look.report).is_some());
@@ -128,21 +130,16 @@ fn tried(scan: &LiveScan, path: &Path, file: &mut InspectedFile) -> Option<Vec<S
 
 /// The stage whose times overlap most with those of a sensor.
 fn stage_of(looks: &[Look], sensor: usize, stages: &[usize]) -> Option<usize> {
-    let Some([first, last]) = looks[sensor].times() else { return stages.first().copied().filter(|_| stages.len() == 1) };
-    let overlap = |stage: usize| {
-        looks[stage].times().map_or(f64::NEG_INFINITY, |[from, to]| last.min(to) - first.max(from))
+    let Some([first, last]) = looks[sensor].times() else {
+        return stages.first().copied().filter(|_| stages.len() == 1);
     };
+    let overlap =
+        |stage: usize| looks[stage].times().map_or(f64::NEG_INFINITY, |[from, to]| last.min(to) - first.max(from));
     stages.iter().copied().max_by(|a, b| overlap(*a).total_cmp(&overlap(*b)))
 }
 
-const WRENCH: [(Role, &str); 6] = [
-    (Role::Fx, "Fx"),
-    (Role::Fy, "Fy"),
-    (Role::Fz, "Fz"),
-    (Role::Tx, "Tx"),
-    (Role::Ty, "Ty"),
-    (Role::Tz, "Tz"),
-];
+const WRENCH: [(Role, &str); 6] =
+    [(Role::Fx, "Fx"), (Role::Fy, "Fy"), (Role::Fz, "Fz"), (Role::Tx, "Tx"), (Role::Ty, "Ty"), (Role::Tz, "Tz")];
 
 fn sensor(looks: &mut [Look], k: usize, stage: Option<usize>, options: &InspectOptions) -> Option<ReadCommand> {
     let mut setup = SetupText::default();
@@ -153,7 +150,9 @@ fn sensor(looks: &mut [Look], k: usize, stage: Option<usize>, options: &InspectO
         if looks[k].report.questions.is_empty() {
             looks[k].report.questions.push(Question {
                 text: "what makes N and N m of these raw values?".to_owned(),
-                answers: vec!["--setup FILE with a calibration or a matrix in [sensor], and columns in [recording]".to_owned()],
+                answers: vec![
+                    "--setup FILE with a calibration or a matrix in [sensor], and columns in [recording]".to_owned(),
+                ],
             });
         }
     }
@@ -228,7 +227,9 @@ fn settle_sense(file: &mut InspectedFile, frame: Option<ReactionFrame>, _setup: 
     file.questions.pop();
     file.questions.push(Question {
         text: "along which axes of the scene does the sensor lie, and does it measure loads or reactions?".to_owned(),
-        answers: vec!["--setup FILE with axes and sense in [mounting]; --write-setup FILE makes one to begin with".to_owned()],
+        answers: vec![
+            "--setup FILE with axes and sense in [mounting]; --write-setup FILE makes one to begin with".to_owned(),
+        ],
     });
 }
 
@@ -245,7 +246,8 @@ fn combined(sensor: &Proposal, stage: Option<&Proposal>) -> ReadOptions {
 /// A wrench without some of its components is read as raw values of those that are there.
 fn incomplete(look: &mut Look, setup: &mut SetupText) {
     let Some((table, guess)) = &look.table else { return };
-    let found: Vec<_> = WRENCH.iter().filter_map(|(role, name)| guess.of(*role).map(|column| (*role, *name, column))).collect();
+    let found: Vec<_> =
+        WRENCH.iter().filter_map(|(role, name)| guess.of(*role).map(|column| (*role, *name, column))).collect();
     if found.len() == WRENCH.len() {
         return;
     }
@@ -261,7 +263,10 @@ fn incomplete(look: &mut Look, setup: &mut SetupText) {
         let expected = "at least Fx, Fy and Tz (or the three in the plane of the rod)";
         return look.report.prevents(table.header_line(), missing.join(", "), "no such column", expected);
     }
-    look.report.fact("components", format!("{} are missing, which a planar rod does not need: the setup says so", missing.join(", ")));
+    look.report.fact(
+        "components",
+        format!("{} are missing, which a planar rod does not need: the setup says so", missing.join(", ")),
+    );
     // as raw values they go by their names, and their units are those of the setup
     look.proposal.columns.retain(|(role, _)| *role == Role::Time);
     let names: Vec<String> = found.iter().map(|(.., column)| name_of(table, column.column)).collect();
@@ -289,7 +294,10 @@ fn frames(look: &mut Look, options: &InspectOptions) -> ReadCommand {
         let unit = x.and_then(|x| guess.columns.get(x)).and_then(|column| column.unit);
         match rod(options).map(|rod| size / rod.rod.length()) {
             Some(lengths) if (50.0..1500.0).contains(&lengths) && unit != Some("m") => {
-                look.report.fact("unit", format!("x spans {size:.4}, {lengths:.0} lengths of the rod in m: it is taken for mm"));
+                look.report.fact(
+                    "unit",
+                    format!("x spans {size:.4}, {lengths:.0} lengths of the rod in m: it is taken for mm"),
+                );
                 words.extend(["--scale".into(), "1e-3".into()]);
             }
             Some(lengths) if lengths > 1.5 => look.report.questions.push(Question {

@@ -153,7 +153,8 @@ fn averages(samples: &[Sample]) -> Option<(Vec<Sample>, [f64; 3])> {
 fn rate(averages: &[Sample], noise: [f64; 3], frame: ReactionFrame, before: Before<'_>) -> Option<Rated> {
     let samples: Vec<Sample> =
         averages.iter().map(|sample| Sample { reactions: frame.of(sample.reactions), ..*sample }).collect();
-    let slope = plausibility(&Rod::new(1.0, 1.0).ok()?, &samples).line.map(|line| line.slope).filter(|slope| *slope > 0.0);
+    let slope =
+        plausibility(&Rod::new(1.0, 1.0).ok()?, &samples).line.map(|line| line.slope).filter(|slope| *slope > 0.0);
     let (units, stiffness) = match (before.rod, slope) {
         (Some(rod), Some(slope)) => units(slope / rod.bending_stiffness(), before.units),
         _ => ([1.0; 2], 1.0),
@@ -196,10 +197,8 @@ fn agreement(samples: &[Sample], noise: [f64; 2], stiffness: f64, length: Option
     };
     // the length does not matter to where the moment vanishes
     let rod = Rod::new(length.unwrap_or((stiffness / largest).sqrt()), stiffness).ok()?;
-    let found: Vec<Option<Touched>> = samples
-        .iter()
-        .map(|sample| touches(sample).then(|| Touched::of(&rod, sample, noise, stiffness)))
-        .collect();
+    let found: Vec<Option<Touched>> =
+        samples.iter().map(|sample| touches(sample).then(|| Touched::of(&rod, sample, noise, stiffness))).collect();
     let contacts: Vec<&Touched> = found.iter().flatten().collect();
     if contacts.len() < FEWEST {
         return None;
@@ -256,7 +255,8 @@ impl Touched {
 /// The length of the rod, from the contacts that are not tangential: half of them are at the tip, or more.
 fn length_of(contacts: &[&Touched]) -> Option<f64> {
     let finite = contacts.iter().filter(|touched| touched.s.is_finite());
-    let mut off: Vec<f64> = finite.clone().filter(|touched| touched.excess < -touched.slack).map(|touched| touched.s).collect();
+    let mut off: Vec<f64> =
+        finite.clone().filter(|touched| touched.excess < -touched.slack).map(|touched| touched.s).collect();
     if 10 * off.len() < contacts.len() {
         return finite.map(|touched| touched.s).max_by(f64::total_cmp).map(|most| (1.0 + SLACK) * most);
     }
@@ -269,7 +269,11 @@ fn correlation(samples: &[Sample], contact: &[bool], energies: &[f64]) -> f64 {
     let work = |k: usize| {
         let (a, b) = (&samples[k], &samples[k + 1]);
         let mean = |of: fn(&Reactions) -> f64| {
-            0.5 * [(a, contact[k]), (b, contact[k + 1])].iter().filter(|one| one.1).map(|one| of(&one.0.reactions)).sum::<f64>()
+            0.5 * [(a, contact[k]), (b, contact[k + 1])]
+                .iter()
+                .filter(|one| one.1)
+                .map(|one| of(&one.0.reactions))
+                .sum::<f64>()
         };
         mean(|r| r.f0x) * (b.pose.x - a.pose.x)
             + mean(|r| r.f0y) * (b.pose.y - a.pose.y)

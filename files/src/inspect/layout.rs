@@ -25,7 +25,8 @@ pub(super) fn layout(path: &Path, options: &TableOptions, file: &mut InspectedFi
     describe(&outline, &table, file);
     if let Some(part) = outline.below.first() {
         let found = format!("a second table: {}", names(part));
-        let more = if outline.below.len() > 1 { format!(", and {} more", outline.below.len() - 1) } else { String::new() };
+        let more =
+            if outline.below.len() > 1 { format!(", and {} more", outline.below.len() - 1) } else { String::new() };
         file.prevents(part.line, "table", found + &more, "one table; save each in a file of its own");
     }
     if let Some(part) = outline.beside.first() {

@@ -96,7 +96,8 @@ impl Look {
         self.propose(&table, &guess, read);
         if self.content == Content::Other {
             let found: Vec<&str> = table.columns().iter().map(|column| column.heading.as_str()).take(20).collect();
-            let expected = "times with poses, forces and moments, raw values, or points; name them with --column MEANING=COLUMN";
+            let expected =
+                "times with poses, forces and moments, raw values, or points; name them with --column MEANING=COLUMN";
             self.report.prevents(table.header_line(), "columns", found.join(", "), expected);
         }
         self.table = Some((table, guess));
@@ -119,7 +120,9 @@ impl Look {
             }
             let Some(dimension) = role.dimension() else { continue };
             match column.unit {
-                Some(unit) if !column.is_unit_known && !is_given(&name) => self.proposal.set_unit(&name, unit.to_owned()),
+                Some(unit) if !column.is_unit_known && !is_given(&name) => {
+                    self.proposal.set_unit(&name, unit.to_owned())
+                }
                 Some(_) => {}
                 None => self.report.questions.push(unit_question(column, &name, dimension)),
             }
@@ -133,7 +136,8 @@ impl Look {
             Content::Wrench => &[Role::Time],
             _ => &[],
         };
-        let missing: Vec<&str> = needed.iter().filter(|role| guess.of(**role).is_none()).map(|role| role.name()).collect();
+        let missing: Vec<&str> =
+            needed.iter().filter(|role| guess.of(**role).is_none()).map(|role| role.name()).collect();
         if !missing.is_empty() {
             let found: Vec<&str> = table.columns().iter().map(|column| column.heading.as_str()).take(20).collect();
             let expected = format!(
@@ -146,7 +150,12 @@ impl Look {
                     ""
                 }
             );
-            self.report.prevents(table.header_line(), missing.join(", "), format!("found {}", found.join(", ")), expected);
+            self.report.prevents(
+                table.header_line(),
+                missing.join(", "),
+                format!("found {}", found.join(", ")),
+                expected,
+            );
         }
     }
 
@@ -176,13 +185,20 @@ fn unit_question(column: &ColumnGuess, name: &str, dimension: Dimension) -> Ques
         Dimension::Temperature => &["degC"],
     };
     let text = format!("in which unit is `{name}`? {}", column.unit_basis.why);
-    Question { text, answers: units.iter().map(|unit| format!("--unit {}", quoted(&format!("{name}={unit}")))).collect() }
+    Question {
+        text,
+        answers: units.iter().map(|unit| format!("--unit {}", quoted(&format!("{name}={unit}")))).collect(),
+    }
 }
 
 /// A word of a command line as a shell takes it.
 pub(super) fn quoted(word: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || "-_./:=,+@%".contains(letter);
-    if !word.is_empty() && word.chars().all(is_plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
 }
 
 pub(super) fn certainty(sureness: Sureness) -> Certainty {

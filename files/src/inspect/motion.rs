@@ -24,7 +24,11 @@ pub(super) fn motion(poses: &[Pose]) -> Option<String> {
         format!("it turns by {:.3} degrees", turn.to_degrees())
     };
     if size < 1e-12 {
-        return Some(if turn < 1e-9 { "the clamp stands still".to_owned() } else { format!("the clamp only turns: {angle}") });
+        return Some(if turn < 1e-9 {
+            "the clamp stands still".to_owned()
+        } else {
+            format!("the clamp only turns: {angle}")
+        });
     }
     let path = if let Some(direction) = straight(poses, size) {
         format!("straight, {:.2} mm along {:.1} degrees from x", 1e3 * size, direction.to_degrees())

@@ -1,8 +1,8 @@
 //! The frame of a recording, by the physics, in words and as options.
 
 use super::frame::{Before, FrameVerdict, ReactionFrame, frame};
-use super::report::{InspectedFile, Question};
 use super::proposal::Proposal;
+use super::report::{InspectedFile, Question};
 use vibrissa::hw::recording::Role;
 use vibrissa::{Rod, Sample};
 
@@ -92,7 +92,9 @@ fn tell(file: &mut InspectedFile, verdict: &FrameVerdict, names: [&str; 3], has_
     let found = match (is_decided, best.frame.is_as_is(), best.frame.is_load()) {
         (false, _, _) => format!("the physics cannot tell axes and signs; {text} {agreement}"),
         (true, true, _) => format!("the physics confirms {text}: it {agreement}"),
-        (true, _, true) => format!("the columns are loads on the sensor, the opposite of reactions on the rod: {text} {agreement}"),
+        (true, _, true) => {
+            format!("the columns are loads on the sensor, the opposite of reactions on the rod: {text} {agreement}")
+        }
         (true, _, _) => format!("the physics prefers {text}: it {agreement}"),
     };
     file.fact("frame", found);

@@ -77,6 +77,7 @@ impl Proposal {
 /// What a column is called in options: without its unit where that is enough.
 pub(super) fn name_of(table: &Table, column: usize) -> String {
     let own = &table.columns()[column];
-    let is_unique = table.columns().iter().filter(|other| other.name == own.name || other.heading == own.name).count() == 1;
+    let is_unique =
+        table.columns().iter().filter(|other| other.name == own.name || other.heading == own.name).count() == 1;
     if is_unique { own.name.clone() } else { own.heading.clone() }
 }

@@ -144,6 +144,9 @@ impl Inspection {
     pub fn is_settled(&self) -> bool {
         !self.commands.is_empty()
             && self.commands.iter().all(|command| command.reads)
-            && self.files.iter().all(|file| file.questions.is_empty() && file.faults.iter().all(|fault| !fault.prevents))
+            && self
+                .files
+                .iter()
+                .all(|file| file.questions.is_empty() && file.faults.iter().all(|fault| !fault.prevents))
     }
 }

@@ -27,7 +27,10 @@ fn times(file: &mut InspectedFile, table: &Table, guess: &TableGuess) {
     let step = factor * column.values.step;
     if step > 0.0 {
         let known = if column.unit.is_some() { "" } else { ", if it is in s" };
-        file.fact("rate", format!("{:.6} Hz over {:.4} s, by `{name}`{known}", 1.0 / step, factor * column.values.range()));
+        file.fact(
+            "rate",
+            format!("{:.6} Hz over {:.4} s, by `{name}`{known}", 1.0 / step, factor * column.values.range()),
+        );
     }
     let (mut gaps, mut longest, mut at) = (0, 0.0, 0);
     let (mut late, mut late_at) = (0, None);
@@ -59,8 +62,10 @@ fn times(file: &mut InspectedFile, table: &Table, guess: &TableGuess) {
 
 /// How many rows repeat the one before, time aside, and the line of the first.
 fn repeated(table: &Table, guess: &TableGuess) -> (usize, Option<u64>) {
-    let counts = |quantity: Option<Quantity>| matches!(quantity, Some(Quantity::Time | Quantity::Other | Quantity::Frame));
-    let columns: Vec<usize> = guess.columns.iter().filter(|c| !counts(c.quantity) && !c.values.is_constant()).map(|c| c.column).collect();
+    let counts =
+        |quantity: Option<Quantity>| matches!(quantity, Some(Quantity::Time | Quantity::Other | Quantity::Frame));
+    let columns: Vec<usize> =
+        guess.columns.iter().filter(|c| !counts(c.quantity) && !c.values.is_constant()).map(|c| c.column).collect();
     let (mut found, mut first) = (0, None);
     let mut before: Option<Row<'_>> = None;
     for row in table.rows() {

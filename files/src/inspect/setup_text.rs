@@ -28,7 +28,8 @@ impl SetupText {
             let names: Vec<String> = components.iter().map(|(name, _)| format!("\"{name}\"")).collect();
             let rows: Vec<String> = (0..components.len())
                 .map(|row| {
-                    let cells: Vec<&str> = (0..components.len()).map(|column| if row == column { "1.0" } else { "0.0" }).collect();
+                    let cells: Vec<&str> =
+                        (0..components.len()).map(|column| if row == column { "1.0" } else { "0.0" }).collect();
                     format!("[{}]", cells.join(", "))
                 })
                 .collect();
@@ -105,11 +106,13 @@ mod tests {
     #[test]
     fn every_frame_has_a_mounting() {
         for number in 0..16_u8 {
-            let frame = ReactionFrame { swapped: number & 8 > 0, turned: [number & 1 > 0, number & 2 > 0, number & 4 > 0] };
+            let frame =
+                ReactionFrame { swapped: number & 8 > 0, turned: [number & 1 > 0, number & 2 > 0, number & 4 > 0] };
             let text = SetupText { frame: Some(frame), ..SetupText::default() }.text();
             let setup = Setup::parse("s.toml".as_ref(), &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
             let wrench = Wrench { force: [0.1, 0.3, 0.0], torque: [0.0, 0.0, 0.7] };
-            let found = setup.mounting.reactions(&WrenchSample::new(0.0, wrench), Pose { x: 0.0, y: 0.0, phi: 1.0 }).reactions;
+            let found =
+                setup.mounting.reactions(&WrenchSample::new(0.0, wrench), Pose { x: 0.0, y: 0.0, phi: 1.0 }).reactions;
             // what a sensor in the axes of the scene gives, and the frame of that
             let plain = Reactions { f0x: -0.1, f0y: -0.3, m0z: -0.7 };
             let (x, y) = if frame.swapped { (plain.f0y, plain.f0x) } else { (plain.f0x, plain.f0y) };

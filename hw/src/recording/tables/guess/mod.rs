@@ -101,7 +101,14 @@ pub fn guess(table: &Table, named: bool, map: &ColumnMap) -> TableGuess {
     for (named, heading) in named.iter_mut().zip(table.columns()) {
         if let Some((role, _)) = map.assigned().find(|(_, name)| heading.is(name)) {
             let basis = Basis { sureness: Sureness::Sure, why: "it was given".to_owned() };
-            *named = Named { quantity: quantity_of(role), axis: None, role: Some(role), basis, unit_in_name: named.unit_in_name, is_given: true };
+            *named = Named {
+                quantity: quantity_of(role),
+                axis: None,
+                role: Some(role),
+                basis,
+                unit_in_name: named.unit_in_name,
+                is_given: true,
+            };
         } else {
             named.role = named.role.filter(|role| map.assigned().all(|(assigned, _)| assigned != *role));
         }
@@ -133,7 +140,14 @@ fn by_names(table: &Table) -> Vec<Named> {
         }
         if is_channel(&column.name) {
             let basis = Basis { sureness: Sureness::Sure, why: format!("the name `{}`", column.name) };
-            return Named { quantity: Some(Quantity::Raw), axis: None, role: None, basis, unit_in_name: None, is_given: false };
+            return Named {
+                quantity: Some(Quantity::Raw),
+                axis: None,
+                role: None,
+                basis,
+                unit_in_name: None,
+                is_given: false,
+            };
         }
         let why = match words {
             Some(_) => format!("the words of `{}`", column.name),
