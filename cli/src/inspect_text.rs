@@ -14,11 +14,11 @@ pub fn inspection_text(found: &Inspection) -> String {
         found.files.iter().flat_map(|file| file.faults.iter().map(move |fault| (file, fault))).collect();
     if !faults.is_empty() {
         text += "to mend:\n";
-        let mut table = Table::new(["place", "field", "found", "expected"]);
+        let mut table = Table::new(["place", "field", "found", "expected", "effect"]);
         for (file, fault) in faults {
             let place = fault.line.map_or_else(|| file.file.clone(), |line| format!("{}:{line}", file.file));
-            let field = if fault.prevents { fault.field.clone() } else { format!("{} (left out)", fault.field) };
-            table.row([place, field, fault.value.clone(), fault.expected.clone()]);
+            let effect = if fault.prevents { "the file is not read" } else { "these rows only" };
+            table.row([place, fault.field.clone(), fault.value.clone(), fault.expected.clone(), effect.to_owned()]);
         }
         let _ = writeln!(text, "{table}");
     }

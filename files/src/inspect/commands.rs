@@ -87,7 +87,7 @@ fn reactions(look: &mut Look, options: &InspectOptions) -> ReadCommand {
         let columns = [Role::F0x, Role::F0y, Role::M0z].map(|role| guess.of(role));
         if let [Some(x), Some(y), Some(z)] = columns {
             let all = [x, y, z];
-            let is_given = |role| options.read.columns.assigned().any(|(assigned, _)| assigned == role);
+            let is_given = |role| guess.of(role).is_some_and(|column| column.is_given);
             let reacting = Reacting {
                 names: all.map(|column| name_of(table, column.column)),
                 units: all.map(|column| column.unit),
@@ -196,7 +196,7 @@ fn sensor(looks: &mut [Look], k: usize, stage: Option<usize>, options: &InspectO
                 };
                 let rod = rod(options).map(|rod| &rod.rod);
                 setup.frame = physics(&mut looks[k].report, &samples, &columns, rod, None);
-                settle_sense(&mut looks[k].report, setup.frame, &setup);
+                settle_sense(&mut looks[k].report, setup.frame);
                 reads = looks[k].report.questions.is_empty();
             }
         }
@@ -219,8 +219,8 @@ fn sensor(looks: &mut [Look], k: usize, stage: Option<usize>, options: &InspectO
     Some(ReadCommand { words, setup: text, reads })
 }
 
-/// What the sensor's frame is asked for by, where the physics does not decide it: a file.
-fn settle_sense(file: &mut InspectedFile, frame: Option<ReactionFrame>, _setup: &SetupText) {
+/// Asks for the frame of a sensor where the physics does not decide it.
+fn settle_sense(file: &mut InspectedFile, frame: Option<ReactionFrame>) {
     if frame.is_some() {
         return;
     }

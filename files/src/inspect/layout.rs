@@ -1,28 +1,34 @@
 //! How the table of a file is written.
 
 use super::report::InspectedFile;
+use crate::ReadOptions;
 use std::path::Path;
 use vibrissa::hw::recording::{
-    Decimal, FileFormat, Header, Outline, Part, Table, TableError, TableOptions, TableProblem,
+    ColumnMap, Decimal, FileFormat, Header, Outline, Part, Table, TableError, TableOptions, TableProblem,
 };
 
 /// The table of a file, and where its names come from; none where it cannot be read, which is a fault.
-pub(super) fn layout(path: &Path, options: &TableOptions, file: &mut InspectedFile) -> Option<(Table, Header)> {
-    let mut options = options.clone();
+pub(super) fn layout(
+    path: &Path,
+    read: &ReadOptions,
+    file: &mut InspectedFile,
+) -> Option<(Table, Header, ReadOptions)> {
+    let mut options = TableOptions { units: Vec::new(), ..read.options.clone() };
     let mut outline = Outline::read(path, &options);
     if matches!(&outline, Err(TableError { problem: TableProblem::NoHeader, .. })) {
         options.header = Header::None;
         outline = Outline::read(path, &options);
     }
-    let read = outline.and_then(|outline| Ok((outline, Table::read(path, &options)?)));
-    let (outline, table) = match read {
-        Ok(read) => read,
+    let found = outline.and_then(|outline| Ok((outline, Table::read(path, &options)?)));
+    let (outline, table) = match found {
+        Ok(found) => found,
         Err(error) => {
             refuse(&error, file);
             return None;
         }
     };
     describe(&outline, &table, file);
+    file.first_other = outline.below.first().map(|part| part.line);
     if let Some(part) = outline.below.first() {
         let found = format!("a second table: {}", names(part));
         let more =
@@ -33,7 +39,23 @@ pub(super) fn layout(path: &Path, options: &TableOptions, file: &mut InspectedFi
         let found = format!("a second table beside the first, behind an empty column: {}", names(part));
         file.prevents(part.line, "table", found, "one table; save each in a file of its own");
     }
-    Some((table, options.header))
+    let read = of_this(&table, read);
+    let mut table = table;
+    if !read.options.units.is_empty() {
+        let options = TableOptions { units: read.options.units.clone(), ..options.clone() };
+        table = Table::read(path, &options).ok()?;
+    }
+    Some((table, options.header, read))
+}
+
+/// What the user said of columns that this file has: of several files one may have them.
+fn of_this(table: &Table, read: &ReadOptions) -> ReadOptions {
+    let has = |name: &str| table.columns().iter().any(|column| column.name == name || column.heading == name);
+    let both = || [Some(read), read.stage.as_deref()].into_iter().flatten();
+    let units = both().flat_map(|read| &read.options.units).filter(|(name, _)| has(name)).cloned().collect();
+    let assigned = both().flat_map(|read| read.columns.assigned()).filter(|(_, name)| has(name));
+    let columns = assigned.fold(ColumnMap::new(), |map, (role, name)| map.with(role, name));
+    ReadOptions { options: TableOptions { units, ..read.options.clone() }, columns, stage: None }
 }
 
 fn names(part: &Part) -> String {

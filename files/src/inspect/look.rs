@@ -3,6 +3,7 @@
 use super::binary;
 use super::layout::layout;
 use super::motion::motion;
+use super::physics::unit_question;
 use super::proposal::{Proposal, name_of};
 use super::report::{Certainty, InspectedColumn, InspectedFile, Question};
 use super::rows::rows;
@@ -66,7 +67,8 @@ impl Look {
 
     fn table(&mut self, read: &ReadOptions) {
         "no table".clone_into(&mut self.report.kind);
-        let Some((table, header)) = layout(&self.path, &read.options, &mut self.report) else { return };
+        let Some((table, header, read)) = layout(&self.path, read, &mut self.report) else { return };
+        let read = &read;
         self.proposal.layout.header = header;
         self.proposal.layout.units.clear();
         let is_named = self.proposal.layout.header != Header::None;
@@ -93,6 +95,9 @@ impl Look {
             self.report.fact("motion of the clamp", path);
         }
         self.report.columns = guess.columns.iter().map(|column| described(&table, column)).collect();
+        if self.content == Content::Frames {
+            of_frames(&mut self.report, &guess);
+        }
         self.propose(&table, &guess, read);
         if self.content == Content::Other {
             let found: Vec<&str> = table.columns().iter().map(|column| column.heading.as_str()).take(20).collect();
@@ -124,7 +129,7 @@ impl Look {
                     self.proposal.set_unit(&name, unit.to_owned())
                 }
                 Some(_) => {}
-                None => self.report.questions.push(unit_question(column, &name, dimension)),
+                None => self.report.questions.push(ask_unit(column, &name, dimension)),
             }
         }
         for (name, unit) in &read.options.units {
@@ -175,7 +180,7 @@ fn starts_with(path: &Path, magic: &[u8]) -> bool {
     std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok() && start == magic
 }
 
-fn unit_question(column: &ColumnGuess, name: &str, dimension: Dimension) -> Question {
+fn ask_unit(column: &ColumnGuess, name: &str, dimension: Dimension) -> Question {
     let units: &[&str] = match dimension {
         Dimension::Force => &["N", "mN"],
         Dimension::Torque => &["N m", "mN m", "N mm"],
@@ -184,7 +189,7 @@ fn unit_question(column: &ColumnGuess, name: &str, dimension: Dimension) -> Ques
         Dimension::Time => &["s", "ms"],
         Dimension::Temperature => &["degC"],
     };
-    let text = format!("in which unit is `{name}`? {}", column.unit_basis.why);
+    let text = format!("{} {}", unit_question(name), column.unit_basis.why);
     Question {
         text,
         answers: units.iter().map(|unit| format!("--unit {}", quoted(&format!("{name}={unit}")))).collect(),
@@ -206,6 +211,21 @@ pub(super) fn certainty(sureness: Sureness) -> Certainty {
         Sureness::Sure => Certainty::Sure,
         Sureness::Likely => Certainty::Likely,
         Sureness::Open => Certainty::Open,
+    }
+}
+
+/// The meanings of columns of points.
+fn of_frames(file: &mut InspectedFile, guess: &TableGuess) {
+    for (described, column) in file.columns.iter_mut().zip(&guess.columns) {
+        // a unit of x and y is an option of the command, and told apart
+        (described.unit, described.unit_why) = (None, String::new());
+        described.unit_certainty = Certainty::Sure;
+        described.meaning = match (column.quantity, column.axis) {
+            (Some(Quantity::Frame), _) => Some("frame".to_owned()),
+            (Some(Quantity::Position), Some(0)) => Some("x".to_owned()),
+            (Some(Quantity::Position), Some(1)) => Some("y".to_owned()),
+            _ => None,
+        };
     }
 }
 

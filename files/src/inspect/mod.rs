@@ -58,3 +58,58 @@ pub fn inspect(files: &[PathBuf], options: &InspectOptions) -> Inspection {
     let commands = commands::commands(&mut looks, options);
     Inspection { files: looks.into_iter().map(|look| look.report).collect(), commands }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn looked_at(name: &str, bytes: &[u8]) -> Inspection {
+        let directory = tempfile::tempdir().unwrap();
+        let file = directory.path().join(name);
+        std::fs::write(&file, bytes).unwrap();
+        let rod = Rod::new(0.1, 6.3e-4).unwrap();
+        let rod = Some(RodInspected { file: "rod.toml".into(), rod });
+        inspect(&[file], &InspectOptions { rod, ..InspectOptions::default() })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+
+        #[test]
+        fn any_bytes_are_looked_at(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+            for start in [&b""[..], b"PK\x03\x04", b"TDSm", b"\x89MCAP0\r\n", b"LabVIEW Measurement\n", b"t,Fx,x0\n"] {
+                let found = looked_at("a.csv", &[start, &bytes].concat());
+                prop_assert!(found.files.len() == 1);
+            }
+        }
+
+        #[test]
+        fn any_table_is_looked_at(
+            names in "([a-zA-Z0-9 \\[\\]_(),;äµ]{0,8}[,;\t]){0,9}",
+            rows in prop::collection::vec("([-0-9.e]{0,7}[,;\t]){0,9}", 0..20),
+        ) {
+            let found = looked_at("a.csv", format!("{names}\n{}\n", rows.join("\n")).as_bytes());
+            prop_assert!(found.files[0].faults.len() + found.files[0].questions.len() + found.commands.len() > 0);
+        }
+
+        /// A recording without contact, or with forces of chance, has no frame that is told.
+        #[test]
+        fn chance_has_no_frame(seed in 0_u32..1000) {
+            let mut state = seed.wrapping_mul(2_654_435_769) | 1;
+            let mut next = || {
+                state ^= state << 13;
+                state ^= state >> 17;
+                state ^= state << 5;
+                f64::from(state) / f64::from(u32::MAX) - 0.5
+            };
+            let mut text = "t,x0,y0,phi0,f0x,f0y,m0z\n".to_owned();
+            for k in 0..200 {
+                text += &format!("{},{},-0.04,1.57,{},{},{}\n", k, 1e-3 * f64::from(k), next(), next(), 0.1 * next());
+            }
+            let found = looked_at("a.csv", text.as_bytes());
+            let frame = found.files[0].facts.iter().find(|fact| fact.what == "frame").unwrap();
+            prop_assert!(frame.found.contains("cannot tell"), "{}", frame.found);
+        }
+    }
+}

@@ -41,7 +41,7 @@ pub(super) fn physics(
     let names = columns.names.each_ref().map(String::as_str);
     let decided = verdict.filter(|verdict| verdict.is_decided);
     match &verdict {
-        None => file.fact("frame", "the physics cannot tell axes and signs: too few samples in contact"),
+        None => file.fact("frame", "the physics cannot tell axes and signs: too few samples in contact beyond the noise, or no line of tangential contacts"),
         Some(verdict) => {
             tell(file, verdict, names, rod.is_some());
             if verdict.is_decided {
@@ -58,8 +58,7 @@ pub(super) fn physics(
     let best = verdict.best;
     if rod.is_some() && !(known[0] && known[1]) {
         // they are told by the physics now
-        let answered = |name: &str| file_question(name);
-        let told: Vec<String> = names.iter().map(|name| answered(name)).collect();
+        let told: Vec<String> = names.iter().map(|name| unit_question(name)).collect();
         file.questions.retain(|question| !told.iter().any(|told| question.text.starts_with(told)));
     }
     if let Some(proposal) = proposal {
@@ -73,7 +72,7 @@ pub(super) fn physics(
 }
 
 /// How the question for the unit of a column begins.
-fn file_question(name: &str) -> String {
+pub(super) fn unit_question(name: &str) -> String {
     format!("in which unit is `{name}`?")
 }
 
@@ -112,7 +111,7 @@ fn stiffness(file: &mut InspectedFile, verdict: &FrameVerdict, rod: Option<&Rod>
     }
 }
 
-/// Who says what the forces are of?
+/// The question for axes and signs.
 fn ask(file: &mut InspectedFile, [x, y, z]: [&str; 3]) {
     file.questions.push(Question {
         text: format!("are `{x}`, `{y}`, `{z}` reactions of the clamp on the rod, along the axes of the poses, or loads on the sensor?"),
@@ -142,7 +141,9 @@ fn options(proposal: &mut Proposal, columns: &Reacting, verdict: &FrameVerdict, 
         };
         let turned = best.frame.turned[meaning] != columns.is_turned[column];
         let Some(unit) = unit else { continue };
-        if turned || columns.units[column].is_none() {
+        // a column that is not what its own name says has no unit without a word
+        let is_renamed = best.frame.swapped && is_force;
+        if turned || is_renamed || columns.units[column].is_none() {
             proposal.set_unit(name, format!("{}{unit}", if turned { "-" } else { "" }));
         }
     }

@@ -87,6 +87,9 @@ pub struct InspectedFile {
     pub faults: Vec<InspectFault>,
     /// What must be answered.
     pub questions: Vec<Question>,
+    /// Line of a second table, below which the rows are those of that.
+    #[serde(skip)]
+    pub(super) first_other: Option<u64>,
 }
 
 impl InspectedFile {
@@ -101,8 +104,12 @@ impl InspectedFile {
         value: impl Into<String>,
         expected: impl Into<String>,
     ) {
-        let (field, value, expected) = (field.into(), value.into(), expected.into());
-        self.faults.push(InspectFault { line: line.into(), field, value, expected, prevents: false });
+        let (line, field, value, expected) = (line.into(), field.into(), value.into(), expected.into());
+        let is_of_other = line.zip(self.first_other).is_some_and(|(line, other)| line >= other) && field != "table";
+        if is_of_other {
+            return;
+        }
+        self.faults.push(InspectFault { line, field, value, expected, prevents: false });
     }
 
     pub(super) fn prevents(
@@ -112,10 +119,9 @@ impl InspectedFile {
         value: impl Into<String>,
         expected: impl Into<String>,
     ) {
+        let count = self.faults.len();
         self.fault(line, field, value, expected);
-        if let Some(last) = self.faults.last_mut() {
-            last.prevents = true;
-        }
+        self.faults[count..].iter_mut().for_each(|fault| fault.prevents = true);
     }
 }
 

@@ -56,6 +56,8 @@ pub struct ColumnGuess {
     pub is_turned: bool,
     /// Why, and how sure that is.
     pub unit_basis: Basis,
+    /// Whether the caller said what it means.
+    pub is_given: bool,
     /// Whether the readers find the column by its name.
     pub is_recognized: bool,
     /// Whether they know the unit without a word.
@@ -233,6 +235,7 @@ fn column_guess(table: &Table, column: usize, named: Named, role: Option<Role>, 
         unit,
         is_turned,
         unit_basis,
+        is_given: named.is_given,
         is_recognized: found.is_some(),
         is_unit_known,
         values,
