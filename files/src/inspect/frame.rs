@@ -27,9 +27,13 @@ const WIDEST: f64 = 0.3;
 /// Fewest averages in contact.
 const FEWEST: usize = 12;
 /// Share of the averages that satisfy one of the conditions in the preferred frame, at least.
-const SHARE: f64 = 0.7;
+pub(super) const SHARE: f64 = 0.7;
 /// Difference of the scores of the best two frames, at least. Scores are at most 3.
 const MARGIN: f64 = 0.3;
+/// With a correlation of work and energy of this size, at least, and so much above that of the second frame, the conditions need not be satisfied: friction, a
+/// taper and springs spoil them, the work hardly.
+const WORK: f64 = 0.7;
+const WORK_MARGIN: f64 = 0.3;
 /// The unit is another one where the slope of the line is within this factor of that of the rod in that unit.
 const NEAR: f64 = 2.0;
 
@@ -102,6 +106,8 @@ pub(super) struct FrameVerdict {
     pub second: Rated,
     /// Whether the best is so much better that it can be relied on.
     pub is_decided: bool,
+    /// Means of the reactions over the first samples, where these are steady and not 0: an offset, which was subtracted.
+    pub offset: Option<[f64; 3]>,
 }
 
 /// What is known before.
@@ -114,31 +120,45 @@ pub(super) struct Before<'r> {
 
 /// The frame of samples; none where too few are in contact. Reactions whose unit is not known are taken as N and N m.
 pub(super) fn frame(samples: &[Sample], before: Before<'_>) -> Option<FrameVerdict> {
-    let (averages, noise) = averages(samples)?;
+    let (averages, noise, offset) = averages(samples)?;
     let mut rated: Vec<Rated> =
         ReactionFrame::all().filter_map(|frame| rate(&averages, noise, frame, before)).collect();
     rated.sort_by(|a, b| b.score().total_cmp(&a.score()));
     let [best, second] = [*rated.first()?, *rated.get(1)?];
-    let is_decided = best.explained >= SHARE && best.energy > 0.0 && best.score() - second.score() >= MARGIN;
-    Some(FrameVerdict { best, second, is_decided })
+    let by_work = best.energy >= WORK
+        && best.energy - second.energy >= WORK_MARGIN
+        && rated.iter().all(|other| other.energy <= best.energy);
+    let is_decided =
+        (best.explained >= SHARE && best.energy > 0.0 || by_work) && best.score() - second.score() >= MARGIN;
+    Some(FrameVerdict { best, second, is_decided, offset })
 }
 
-/// Means of consecutive samples, and the standard deviations of the reactions in them.
-fn averages(samples: &[Sample]) -> Option<(Vec<Sample>, [f64; 3])> {
+/// Means of consecutive samples less the offset, the standard deviations of the reactions in them, and the offset, if there is one.
+type Averages = (Vec<Sample>, [f64; 3], Option<[f64; 3]>);
+
+fn averages(samples: &[Sample]) -> Option<Averages> {
     let channels: [fn(&Sample) -> f64; 3] = [|s| s.reactions.f0x, |s| s.reactions.f0y, |s| s.reactions.m0z];
     let count: Vec<f64> = (0..samples.len()).map(|k| k as f64).collect();
     let length = samples.len().div_ceil(MOST).max(1);
+    let (mut offset, mut is_steady) = ([0.0; 3], true);
+    let mut of_channel = 0..3_usize;
     let noise = channels.map(|channel| {
         let values: Vec<f64> = samples.iter().map(channel).collect();
         let found = estimate(&count, &values);
+        if let (Some(number), Some(start)) = (of_channel.next(), Start::of(&values, found.sigma)) {
+            is_steady &= start.is_steady;
+            offset[number] = if start.is_offset { start.mean } else { 0.0 };
+        }
         let long_run = if length > 1 { found.long_run.max(1.0) } else { 1.0 };
         found.sigma * (long_run / length as f64).sqrt()
     });
+    let offset = Some(offset).filter(|offset| is_steady && *offset != [0.0; 3]);
+    let taken = offset.unwrap_or_default();
     let averages: Vec<Sample> = samples
         .chunks(length)
         .map(|part| {
             let mean = |of: &dyn Fn(&Sample) -> f64| part.iter().map(of).sum::<f64>() / part.len() as f64;
-            let [f0x, f0y, m0z] = channels.map(|channel| mean(&channel));
+            let [f0x, f0y, m0z] = [0, 1, 2].map(|number: usize| mean(&channels[number]) - taken[number]);
             let [x, y, phi] = [mean(&|s| s.pose.x), mean(&|s| s.pose.y), mean(&|s| s.pose.phi)];
             Sample::new(vibrissa::Pose { x, y, phi }, Reactions { f0x, f0y, m0z })
         })
@@ -147,7 +167,39 @@ fn averages(samples: &[Sample]) -> Option<(Vec<Sample>, [f64; 3])> {
             [sample.pose.x, sample.pose.y, sample.pose.phi, f0x, f0y, m0z].iter().all(|value| value.is_finite())
         })
         .collect();
-    (averages.len() > FEWEST).then_some((averages, noise))
+    (averages.len() > FEWEST).then_some((averages, noise, offset))
+}
+
+/// The first samples of a channel.
+struct Start {
+    mean: f64,
+    /// Whether they vary no more than the noise: the rod is free there.
+    is_steady: bool,
+    /// Whether their mean differs from 0 by more than the noise.
+    is_offset: bool,
+}
+
+impl Start {
+    /// Share of the samples that is the start.
+    const PART: usize = 50;
+    /// Fewest samples of a start.
+    const FEWEST: usize = 8;
+    /// Smallest offset, relative to the range of the channel, that matters.
+    const SMALLEST: f64 = 2e-3;
+
+    fn of(values: &[f64], sigma: f64) -> Option<Self> {
+        let first = values.get(..(values.len() / Self::PART).max(Self::FEWEST))?;
+        let count = first.len() as f64;
+        let mean = first.iter().sum::<f64>() / count;
+        let spread = (first.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
+        let range = values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)]);
+        let range = range[1] - range[0];
+        Some(Self {
+            mean,
+            is_steady: spread <= 1.5 * sigma + 1e-6 * range,
+            is_offset: mean.abs() > SIGMAS * sigma / count.sqrt() && mean.abs() > Self::SMALLEST * range,
+        })
+    }
 }
 
 fn rate(averages: &[Sample], noise: [f64; 3], frame: ReactionFrame, before: Before<'_>) -> Option<Rated> {
@@ -296,4 +348,88 @@ fn correlation(samples: &[Sample], contact: &[bool], energies: &[f64]) -> f64 {
     });
     let found = sums[0] / (sums[1] * sums[2]).sqrt();
     if found.is_finite() { found } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Interrupt, Scene, Simulation};
+    use vibrissa::Pose;
+    use vibrissa::reconstruct::NoiseModel;
+
+    const SCENE: &str = "
+        [rod]\nlength = 0.1\nbending_stiffness = 6.32e-4
+        [contact]\nfriction = FRICTION
+        [[contour.piece]]\nshape = 'parabola'\nvertex = [0.0, 0.0]\ncoefficient = 50.0
+        [[contour.piece]]\nshape = 'parabola'\nvertex = [0.03, 0.0]\ncoefficient = 50.0
+        [sweep]\nfrom = [0.07, -0.04]\nto = [-0.06, -0.04]\nangle = 90.0\nstep = 1e-3";
+
+    /// A scan with friction and noise.
+    fn scan(friction: f64, noise: NoiseModel) -> Vec<Sample> {
+        let scene = Scene::parse("scene.toml".as_ref(), &SCENE.replace("FRICTION", &friction.to_string())).unwrap();
+        let simulation = Simulation { scene, noise, rate: 20.0, speed: 2e-3, seed: 7, sigmas: false };
+        let mut text = Vec::new();
+        simulation.write_to(&mut text, &Interrupt::default()).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let row = |line: &str| {
+            let cells: Vec<f64> = line.split(',').map_while(|cell| cell.parse().ok()).collect();
+            let [_, x, y, phi, f0x, f0y, m0z] = cells[..] else { return None };
+            Some(Sample::new(Pose { x, y, phi }, Reactions { f0x, f0y, m0z }))
+        };
+        text.lines().filter_map(row).collect()
+    }
+
+    /// How many of the sixteen frames are found; none that is decided is wrong.
+    fn found(samples: &[Sample], rod: Option<&Rod>) -> usize {
+        let is_right = |told: ReactionFrame| {
+            // the samples as a file in this frame has them: signs first, then the order
+            let [x, y, z] = told.turned.map(|turned| if turned { -1.0 } else { 1.0 });
+            let of_file = |sample: &Sample| {
+                let Reactions { f0x, f0y, m0z } = sample.reactions;
+                let (a, b) = if told.swapped { (y * f0y, x * f0x) } else { (x * f0x, y * f0y) };
+                Sample { reactions: Reactions { f0x: a, f0y: b, m0z: z * m0z }, ..*sample }
+            };
+            let file: Vec<Sample> = samples.iter().map(of_file).collect();
+            let verdict = frame(&file, Before { rod, units: [true; 2] }).unwrap();
+            assert!(!verdict.is_decided || verdict.best.frame == told, "{told:?}: {verdict:?}");
+            verdict.is_decided
+        };
+        ReactionFrame::all().filter(|frame| is_right(*frame)).count()
+    }
+
+    fn all(force: f64, moment: f64) -> Reactions {
+        Reactions { f0x: force, f0y: force, m0z: moment }
+    }
+
+    #[test]
+    fn every_frame_is_found_in_noise_with_an_offset_and_with_friction() {
+        let rod = Rod::new(0.1, 6.32e-4).unwrap();
+        let noise = NoiseModel { white: all(2.5e-3, 6e-5), ..NoiseModel::default() };
+        for (friction, noise) in [
+            (0.0, NoiseModel::default()),
+            (0.0, noise),
+            (0.0, NoiseModel { white: all(1e-2, 3e-4), ..noise }),
+            (0.0, NoiseModel { offset: all(2e-2, 5e-4), ..noise }),
+            (0.2, noise),
+        ] {
+            let samples = scan(friction, noise);
+            assert_eq!((found(&samples, Some(&rod)), found(&samples, None)), (16, 16), "{friction} {noise:?}");
+        }
+    }
+
+    #[test]
+    fn units_are_those_of_the_stiffness() {
+        let rod = Rod::new(0.1, 6.32e-4).unwrap();
+        let samples = scan(0.0, NoiseModel::default());
+        for (force, moment) in [(1.0, 1.0), (1e-3, 1.0), (1.0, 1e-3), (1e-3, 1e-3), (1.0, 1e-6)] {
+            let of_file = |sample: &Sample| {
+                let Reactions { f0x, f0y, m0z } = sample.reactions;
+                Sample { reactions: Reactions { f0x: f0x / force, f0y: f0y / force, m0z: m0z / moment }, ..*sample }
+            };
+            let file: Vec<Sample> = samples.iter().map(of_file).collect();
+            let verdict = frame(&file, Before { rod: Some(&rod), units: [false; 2] }).unwrap();
+            assert!(verdict.is_decided && verdict.best.frame.is_as_is(), "{verdict:?}");
+            assert_eq!(verdict.best.units, [force, moment], "{verdict:?}");
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! The frame of a recording, by the physics, in words and as options.
 
-use super::frame::{Before, FrameVerdict, ReactionFrame, frame};
+use super::frame::{Before, FrameVerdict, ReactionFrame, SHARE, frame};
 use super::proposal::Proposal;
 use super::report::{InspectedFile, Question};
 use vibrissa::hw::recording::Role;
@@ -43,6 +43,14 @@ pub(super) fn physics(
     match &verdict {
         None => file.fact("frame", "the physics cannot tell axes and signs: too few samples in contact beyond the noise, or no line of tangential contacts"),
         Some(verdict) => {
+            if let Some([x, y, z]) = verdict.offset {
+                let [a, b, c] = names;
+                let found = format!(
+                    "{a} {x:.3e}, {b} {y:.3e}, {c} {z:.3e} at the start, where nothing changes: not tared; subtracted for the frame, and \
+                     estimated by `reconstruct`"
+                );
+                file.fact("offset", found);
+            }
             tell(file, verdict, names, rod.is_some());
             if verdict.is_decided {
                 stiffness(file, verdict, rod);
@@ -97,6 +105,11 @@ fn tell(file: &mut InspectedFile, verdict: &FrameVerdict, names: [&str; 3], has_
         (true, _, _) => format!("the physics prefers {text}: it {agreement}"),
     };
     file.fact("frame", found);
+    if *is_decided && best.explained < SHARE {
+        let why = "many samples fit neither contact condition: friction, a rod or clamp of another kind, or reactions with an offset; the frame \
+                   follows from the work";
+        file.fact("contact", why);
+    }
 }
 
 fn stiffness(file: &mut InspectedFile, verdict: &FrameVerdict, rod: Option<&Rod>) {
