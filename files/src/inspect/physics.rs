@@ -85,7 +85,7 @@ pub(super) fn unit_question(name: &str) -> String {
 }
 
 fn tell(file: &mut InspectedFile, verdict: &FrameVerdict, names: [&str; 3], has_rod: bool) {
-    let FrameVerdict { best, second, is_decided } = verdict;
+    let FrameVerdict { best, second, is_decided, .. } = verdict;
     let of = if has_rod { "" } else { ", with stiffness and length as the recording suggests" };
     let agreement = format!(
         "explains {:.0} % of the contact, work and elastic energy correlate by {:+.2}; next {}: {:.0} %, {:+.2}{of}",

@@ -5,7 +5,7 @@ use super::layout::{Layout, Line};
 use super::lvm::is_lvm;
 use super::number::number;
 use super::options::{Decimal, Delimiter, TableOptions};
-use super::read::{SAMPLE, bytes, is_workbook, text_of};
+use super::read::{SAMPLE, as_written, bytes, is_workbook, text_of};
 use super::split::{Lines, Splitter, comment};
 use std::path::Path;
 
@@ -79,6 +79,7 @@ impl Outline {
     /// # Errors
     /// [`TableError`], as where the table is read.
     pub fn parse(file: &str, whole: &[u8], options: &TableOptions) -> Result<Self, TableError> {
+        let options = &*as_written(whole, options);
         let text = &*text_of(file, whole, options)?;
         if is_lvm(text) {
             return Ok(Self {

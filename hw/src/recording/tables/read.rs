@@ -4,7 +4,7 @@ use super::error::{TableError, TableProblem, listed};
 use super::heading::{Column, bare_unit};
 use super::layout::{Layout, Line};
 use super::lvm;
-use super::options::TableOptions;
+use super::options::{Decimal, Delimiter, TableOptions};
 use super::split::{Lines, MOST_COLUMNS, Splitter, comment};
 use super::table::Table;
 use super::workbook;
@@ -49,6 +49,7 @@ impl Table {
     /// As [`read_all`](Self::read_all).
     pub fn parse_all(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Vec<Self>, TableError> {
         let whole = bytes;
+        let options = &*as_written(whole, options);
         let bytes = &*text_of(file, bytes, options)?;
         if let Some(zero) = bytes.iter().position(|byte| *byte == 0) {
             let line = 1 + bytes[..zero].iter().filter(|byte| **byte == b'\n').count() as u64;
@@ -88,6 +89,14 @@ impl Table {
 /// Whether this is a workbook of a spreadsheet: an archive (ZIP), which no text begins like.
 pub(super) fn is_workbook(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04")
+}
+
+/// The options for a file: the text of a workbook is written by `workbook`, whatever its own decimal mark is.
+pub(super) fn as_written<'o>(whole: &[u8], options: &'o TableOptions) -> Cow<'o, TableOptions> {
+    if !is_workbook(whole) {
+        return Cow::Borrowed(options);
+    }
+    Cow::Owned(TableOptions { delimiter: Some(Delimiter::Tab), decimal: Some(Decimal::Point), ..options.clone() })
 }
 
 /// The text of a file in UTF-8, without a mark at its start; of a workbook that of its sheet.
