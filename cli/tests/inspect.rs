@@ -62,10 +62,10 @@ fn runs(directory: &Path, found: &Value) -> String {
         let output = vibrissa(directory, &[&words[1..], more].concat());
         said = String::from_utf8_lossy(&output.stdout).into_owned();
         let complaint = complaint(&output);
-        assert!(
-            matches!(output.status.code(), Some(0 | 2)) && !complaint.contains("error: "),
-            "{words:?}: {complaint}"
-        );
+        // rows that are left out, and points of a made-up shape, need not fit
+        let may_misfit = words[1] == "forces" || found.to_string().contains("oops");
+        let is_read = output.status.code() == Some(0) || may_misfit && output.status.code() == Some(2);
+        assert!(is_read && !complaint.contains("error: "), "{words:?}: {complaint}{said}");
     }
     said
 }
@@ -77,10 +77,7 @@ fn settles(name: &str, contents: &[u8]) -> Value {
     let (found, status) = inspected(directory.path(), &[name, "--rod", "rod.toml"]);
     assert_eq!(status, 0, "{found:#}");
     let said = runs(directory.path(), &found);
-    assert!(
-        said.contains("single-contact") || said.contains("frames") || said.contains(" A ") || !said.is_empty(),
-        "{said}"
-    );
+    assert!(!said.is_empty());
     found
 }
 
@@ -152,6 +149,22 @@ fn forces_without_a_unit_are_a_question_without_the_rod() {
     let (found, status) = inspected(directory.path(), &answers);
     assert_eq!(status, 0, "{found:#}");
     runs(directory.path(), &found);
+}
+
+/// A file that says N m where N mm are: the stiffness of the rod contradicts it.
+#[test]
+fn units_that_contradict_the_rod_are_a_question() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = table("t,x0,y0,phi0,f0x [N],f0y [N],m0z [N m]\n", ",", |[t, x, y, phi, fx, fy, mz]| {
+        [*t, *x, *y, *phi, *fx, *fy, 1e3 * mz]
+    });
+    fs::write(directory.path().join("scan.csv"), &text).unwrap();
+    let (found, status) = inspected(directory.path(), &["scan.csv", "--rod", "rod.toml"]);
+    let asked = found["files"][0]["questions"][0]["text"].as_str().unwrap();
+    assert!(status == 2 && asked.starts_with("the reactions give 1.000e6 times the bending stiffness"), "{found:#}");
+    // without a written unit the rod tells it
+    let found = settles("scan.csv", text.replace(" [N]", "").replace(" [N m]", "").as_bytes());
+    assert!(words(&found).ends_with("--unit m0z=N mm"), "{}", words(&found));
 }
 
 #[test]

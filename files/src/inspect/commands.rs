@@ -1,10 +1,10 @@
 //! The command lines that read the files, tried by the readers themselves.
 
-use super::frame::ReactionFrame;
+use super::frame::{Before, MARGIN, ReactionFrame, frame};
 use super::look::{Content, Look, quoted};
-use super::physics::{Reacting, physics};
+use super::physics::{Reacting, physics, unit_question};
 use super::proposal::{Proposal, name_of};
-use super::report::{InspectedFile, Question, ReadCommand};
+use super::report::{Certainty, InspectedFile, Question, ReadCommand};
 use super::setup_text::SetupText;
 use super::values::samples;
 use super::{InspectOptions, RodInspected};
@@ -81,6 +81,7 @@ fn refused(file: &mut InspectedFile, message: &str) {
 }
 
 fn reactions(look: &mut Look, options: &InspectOptions) -> ReadCommand {
+    angle(look, options);
     if let Some((table, guess)) = &look.table
         && let Some(samples) = samples(table, guess)
     {
@@ -90,6 +91,12 @@ fn reactions(look: &mut Look, options: &InspectOptions) -> ReadCommand {
             let is_given = |role| guess.of(role).is_some_and(|column| column.is_given);
             let reacting = Reacting {
                 names: all.map(|column| name_of(table, column.column)),
+                columns: all.map(|column| column.column),
+                is_written: all.map(|column| column.is_unit_written),
+                is_given: all.iter().all(|column| {
+                    let own = &table.columns()[column.column];
+                    options.read.options.units.iter().any(|(name, _)| *name == own.name || *name == own.heading)
+                }),
                 units: all.map(|column| column.unit),
                 is_turned: all.map(|column| column.is_turned),
                 is_own: all.iter().all(|column| column.is_recognized)
@@ -105,6 +112,36 @@ fn reactions(look: &mut Look, options: &InspectOptions) -> ReadCommand {
         && scan(options, Setup::default(), None, look.proposal.read())
             .is_some_and(|scan| tried(&scan, &look.path, &mut look.report).is_some());
     ReadCommand { words, setup: None, reads }
+}
+
+/// Tells radians from degrees by the physics, where the values do not.
+fn angle(look: &mut Look, options: &InspectOptions) {
+    let Some((table, guess)) = &mut look.table else { return };
+    let Some(column) = guess.of(Role::Phi0).filter(|column| column.unit.is_none()).map(|column| column.column) else {
+        return;
+    };
+    let name = name_of(table, column);
+    let rod = rod(options).map(|rod| &rod.rod);
+    let mut rated = ["rad", "deg"].map(|unit| {
+        guess.columns[column].unit = Some(unit);
+        let verdict = samples(table, guess).and_then(|samples| frame(&samples, Before { rod, units: [false; 2] }));
+        (unit, verdict.filter(|verdict| verdict.is_decided).map_or(0.0, |verdict| verdict.best.score()))
+    });
+    rated.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let [(unit, best), (_, other)] = rated;
+    guess.columns[column].unit = None;
+    if best - other < MARGIN {
+        return;
+    }
+    guess.columns[column].unit = Some(unit);
+    look.proposal.set_unit(&name, unit.to_owned());
+    let asked = unit_question(&name);
+    look.report.questions.retain(|question| !question.text.starts_with(&asked));
+    if let Some(described) = look.report.columns.get_mut(column) {
+        described.unit = Some(unit.to_owned());
+        described.unit_certainty = Certainty::Likely;
+        "the physics of the contacts".clone_into(&mut described.unit_why);
+    }
 }
 
 fn is_answered(file: &InspectedFile) -> bool {
@@ -190,6 +227,9 @@ fn sensor(looks: &mut [Look], k: usize, stage: Option<usize>, options: &InspectO
             if let Some(samples) = samples.filter(|_| options.setup.is_none()) {
                 let columns = Reacting {
                     names: ["-Fx", "-Fy", "-Tz"].map(str::to_owned),
+                    columns: [0; 3],
+                    is_written: [true; 3],
+                    is_given: false,
                     units: [Some("N"), Some("N"), Some("N m")],
                     is_turned: [false; 3],
                     is_own: false,

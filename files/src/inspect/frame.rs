@@ -29,13 +29,13 @@ const FEWEST: usize = 12;
 /// Share of the averages that satisfy one of the conditions in the preferred frame, at least.
 pub(super) const SHARE: f64 = 0.7;
 /// Difference of the scores of the best two frames, at least. Scores are at most 3.
-const MARGIN: f64 = 0.3;
+pub(super) const MARGIN: f64 = 0.3;
 /// With a correlation of work and energy of this size, at least, and so much above that of the second frame, the conditions need not be satisfied: friction, a
 /// taper and springs spoil them, the work hardly.
 const WORK: f64 = 0.7;
 const WORK_MARGIN: f64 = 0.3;
 /// The unit is another one where the slope of the line is within this factor of that of the rod in that unit.
-const NEAR: f64 = 2.0;
+pub(super) const NEAR: f64 = 2.0;
 
 /// A frame of the reactions: which column is which, and with what sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +98,7 @@ pub(super) struct Rated {
 }
 
 impl Rated {
-    fn score(&self) -> f64 {
+    pub fn score(&self) -> f64 {
         self.explained + self.possible + self.energy
     }
 }

@@ -1,8 +1,8 @@
 //! The frame of a recording, by the physics, in words and as options.
 
-use super::frame::{Before, FrameVerdict, ReactionFrame, SHARE, frame};
+use super::frame::{Before, FrameVerdict, NEAR, ReactionFrame, SHARE, frame};
 use super::proposal::Proposal;
-use super::report::{InspectedFile, Question};
+use super::report::{Certainty, InspectedFile, Question};
 use vibrissa::hw::recording::Role;
 use vibrissa::{Rod, Sample};
 
@@ -12,6 +12,12 @@ const STIFFNESS: f64 = 0.03;
 /// The columns of the reactions: names, units, whether these are known, whether the names stand for reactions on the rod.
 pub(super) struct Reacting {
     pub names: [String; 3],
+    /// Their numbers in the table.
+    pub columns: [usize; 3],
+    /// Whether the file or the user says the units.
+    pub is_written: [bool; 3],
+    /// Whether the user does.
+    pub is_given: bool,
     pub units: [Option<&'static str>; 3],
     pub is_turned: [bool; 3],
     pub is_own: bool,
@@ -36,7 +42,7 @@ pub(super) fn physics(
     rod: Option<&Rod>,
     proposal: Option<&mut Proposal>,
 ) -> Option<ReactionFrame> {
-    let known = [columns.units[0].is_some() && columns.units[1].is_some(), columns.units[2].is_some()];
+    let known = [columns.is_written[0] && columns.is_written[1], columns.is_written[2]];
     let verdict = frame(samples, Before { rod, units: known });
     let names = columns.names.each_ref().map(String::as_str);
     let decided = verdict.filter(|verdict| verdict.is_decided);
@@ -70,7 +76,13 @@ pub(super) fn physics(
         file.questions.retain(|question| !told.iter().any(|told| question.text.starts_with(told)));
     }
     if let Some(proposal) = proposal {
-        options(proposal, columns, &verdict, rod.is_some());
+        options(file, proposal, columns, &verdict, rod.is_some());
+    }
+    if let Some(rod) = rod
+        && !(1.0 / NEAR..NEAR).contains(&best.stiffness)
+        && !columns.is_given
+    {
+        file.questions.push(contradiction(columns, &verdict, rod));
     }
     if rod.is_some() && best.units != [1.0; 2] {
         let [force, moment] = [unit_name(best.units[0], true), unit_name(best.units[1], false)];
@@ -124,6 +136,20 @@ fn stiffness(file: &mut InspectedFile, verdict: &FrameVerdict, rod: Option<&Rod>
     }
 }
 
+/// The question where the units that the file states contradict the rod.
+fn contradiction(columns: &Reacting, verdict: &FrameVerdict, rod: &Rod) -> Question {
+    let ratio = verdict.best.stiffness;
+    let [x, y, z] = &columns.names;
+    let stiffness = rod.bending_stiffness();
+    Question {
+        text: format!(
+            "the reactions give {ratio:.3e} times the bending stiffness of the rod ({stiffness:.4e} N m^2): is it another rod, or is a unit wrong? \
+             Forces in mN taken for N give 1e-3, moments in N mm taken for N m give 1e6"
+        ),
+        answers: vec![format!("--unit {x}=... --unit {y}=... --unit {z}=... (as they are, if the rod is another one)")],
+    }
+}
+
 /// The question for axes and signs.
 fn ask(file: &mut InspectedFile, [x, y, z]: [&str; 3]) {
     file.questions.push(Question {
@@ -136,7 +162,13 @@ fn ask(file: &mut InspectedFile, [x, y, z]: [&str; 3]) {
 }
 
 /// Columns and units as the frame asks for them.
-fn options(proposal: &mut Proposal, columns: &Reacting, verdict: &FrameVerdict, has_rod: bool) {
+fn options(
+    file: &mut InspectedFile,
+    proposal: &mut Proposal,
+    columns: &Reacting,
+    verdict: &FrameVerdict,
+    has_rod: bool,
+) {
     let best = &verdict.best;
     let [x, y, z] = [0, 1, 2];
     let order = if best.frame.swapped { [y, x, z] } else { [x, y, z] };
@@ -146,18 +178,23 @@ fn options(proposal: &mut Proposal, columns: &Reacting, verdict: &FrameVerdict, 
             proposal.set_column([Role::F0x, Role::F0y][meaning], name);
         }
         let is_force = meaning < 2;
-        let factor = best.units[usize::from(!is_force)];
-        let unit = match columns.units[column] {
-            Some(unit) => Some(unit),
-            None if has_rod => Some(unit_name(factor, is_force)),
-            None => None,
-        };
-        let turned = best.frame.turned[meaning] != columns.is_turned[column];
-        let Some(unit) = unit else { continue };
+        let is_told = has_rod && !columns.is_written[column];
+        let told = unit_name(best.units[usize::from(!is_force)], is_force);
+        let Some(unit) = (if is_told { Some(told) } else { columns.units[column] }) else { continue };
+        let is_turned = best.frame.turned[meaning] != columns.is_turned[column];
         // a column that is not what its own name says has no unit without a word
         let is_renamed = best.frame.swapped && is_force;
-        if turned || is_renamed || columns.units[column].is_none() {
-            proposal.set_unit(name, format!("{}{unit}", if turned { "-" } else { "" }));
+        let signed = format!("{}{unit}", if is_turned { "-" } else { "" });
+        if let Some(described) = file.columns.get_mut(columns.columns[column]) {
+            described.meaning = Some(["f0x", "f0y", "m0z"][meaning].to_owned());
+            described.unit = Some(signed.clone());
+            if is_told && columns.units[column] != Some(told) {
+                described.unit_certainty = Certainty::Likely;
+                "the stiffness of the rod".clone_into(&mut described.unit_why);
+            }
+        }
+        if is_turned || is_renamed || columns.units[column] != Some(unit) {
+            proposal.set_unit(name, signed);
         }
     }
 }

@@ -62,6 +62,8 @@ pub struct ColumnGuess {
     pub is_recognized: bool,
     /// Whether they know the unit without a word.
     pub is_unit_known: bool,
+    /// Whether the file or the caller says the unit: the name of the role alone does not.
+    pub is_unit_written: bool,
     /// What its values are like.
     pub values: ColumnSummary,
 }
@@ -231,13 +233,18 @@ fn column_guess(table: &Table, column: usize, named: Named, role: Option<Role>, 
         quantity: named.quantity,
         axis: named.axis,
         role,
-        meaning: named.basis,
+        meaning: if found.is_some() && !named.is_given {
+            Basis { sureness: Sureness::Sure, why: format!("the name `{}`", heading.name) }
+        } else {
+            named.basis
+        },
         unit,
         is_turned,
         unit_basis,
         is_given: named.is_given,
         is_recognized: found.is_some(),
         is_unit_known,
+        is_unit_written: written.is_some() || named.unit_in_name.is_some(),
         values,
     }
 }
