@@ -117,7 +117,7 @@ fn german_semicolons_and_decimal_commas_with_loads() {
     });
     let (head, rows) = text.split_at(head.len());
     let found = settles("messung.csv", (head.to_owned() + &rows.replace('.', ",")).as_bytes());
-    assert_eq!(meanings(&found), ["t s", "x0 mm", "y0 mm", "phi0 deg", "f0x mN", "f0y mN", "m0z N mm"]);
+    assert_eq!(meanings(&found), ["t s", "x0 mm", "y0 mm", "phi0 deg", "f0x -mN", "f0y -mN", "m0z -N mm"]);
     assert_eq!(fact(&found, "format"), "text, semicolons between the cells, decimal comma");
     assert!(fact(&found, "frame").starts_with("the columns are loads on the sensor"), "{found:#}");
     assert!(words(&found).contains("--unit Kraft X=-mN"), "{}", words(&found));

@@ -1,9 +1,10 @@
 //! A look at files of unknown layout: what they hold, what must be mended, and the command that reads them.
 //!
 //! `look` describes one file: `layout` how it is written, `rows` its times and cells, `motion` the path of the clamp, `binary` files of
-//! other programs. `physics` finds axes, signs and units (`frame`, `energy`). `commands` puts files together and tries the readers with
+//! other programs. `physics` finds axes, signs and units (`frame`, `agreement`, `energy`). `commands` puts files together and tries the readers with
 //! the options of `proposal` and the `setup_text`.
 
+mod agreement;
 mod binary;
 mod commands;
 mod energy;
