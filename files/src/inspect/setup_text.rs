@@ -3,11 +3,20 @@
 use super::frame::ReactionFrame;
 use std::fmt::Write;
 
+/// Components of a wrench that is not complete.
+#[derive(Clone, Debug)]
+pub(super) struct Components {
+    /// Their names, and those of their columns.
+    pub columns: Vec<(&'static str, String)>,
+    /// Units of forces and moments.
+    pub units: [String; 2],
+}
+
 /// What a setup must say.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SetupText {
-    /// Components of a wrench that is not complete, with the names of their columns and the units of forces and moments.
-    pub components: Option<(Vec<(&'static str, String)>, [String; 2])>,
+    /// The components that there are, if not all are.
+    pub components: Option<Components>,
     /// The column of the times.
     pub time: Option<String>,
     /// The topic of an MCAP file.
@@ -24,7 +33,7 @@ impl SetupText {
     /// The file.
     pub fn text(&self) -> String {
         let mut text = "# Setup of a sensor, as `vibrissa inspect` understood its recording. docs/sensors.md explains every field.\n".to_owned();
-        if let Some((components, [force, torque])) = &self.components {
+        if let Some(Components { columns: components, units: [force, torque] }) = &self.components {
             let names: Vec<String> = components.iter().map(|(name, _)| format!("\"{name}\"")).collect();
             let rows: Vec<String> = (0..components.len())
                 .map(|row| {
@@ -53,7 +62,7 @@ impl SetupText {
         if self.components.is_some() || self.topic.is_some() || self.time.is_some() {
             text += "\n[recording]\n";
         }
-        if let Some((components, _)) = &self.components {
+        if let Some(Components { columns: components, .. }) = &self.components {
             let names: Vec<String> = components.iter().map(|(_, column)| toml_string(column)).collect();
             let _ = writeln!(text, "columns = [{}]", names.join(", "));
         }

@@ -7,7 +7,7 @@ use crate::inspect::look::{Content, Look};
 use crate::inspect::physics::{Reacting, physics};
 use crate::inspect::proposal::{Proposal, name_of};
 use crate::inspect::report::{InspectedFile, Question, ReadCommand};
-use crate::inspect::setup_text::SetupText;
+use crate::inspect::setup_text::{Components, SetupText};
 use crate::{ReadOptions, Setup, StageSpec};
 use vibrissa::hw::recording::Role;
 
@@ -34,15 +34,14 @@ pub(super) fn sensor(
     if let Content::Topic(topic) = &looks[k].content {
         setup.topic = Some(topic.clone());
     }
-    if looks[k].content == Content::Raw && options.setup.is_none() {
-        if looks[k].report.questions.is_empty() {
-            looks[k].report.questions.push(Question {
-                text: "what makes N and N m of these raw values?".to_owned(),
-                answers: vec![
-                    "--setup FILE with a calibration or a matrix in [sensor], and columns in [recording]".to_owned(),
-                ],
-            });
-        }
+    let is_scale_missing = looks[k].content == Content::Raw && options.setup.is_none();
+    if is_scale_missing && looks[k].report.questions.is_empty() {
+        looks[k].report.questions.push(Question {
+            text: "what makes N and N m of these raw values?".to_owned(),
+            answers: vec![
+                "--setup FILE with a calibration or a matrix in [sensor], and columns in [recording]".to_owned(),
+            ],
+        });
     }
     if looks[k].content == Content::Wrench {
         incomplete(&mut looks[k], &mut setup);
@@ -148,7 +147,7 @@ fn incomplete(look: &mut Look, setup: &mut SetupText) {
         of.filter_map(|(_, _, column)| column.unit).next().map(str::to_owned)
     };
     let units = [unit(false).unwrap_or_else(|| "N".to_owned()), unit(true).unwrap_or_else(|| "N m".to_owned())];
-    let components = found.iter().map(|(_, name, column)| (*name, name_of(table, column.column))).collect();
+    let columns = found.iter().map(|(_, name, column)| (*name, name_of(table, column.column))).collect();
     let needed = [Role::Fx, Role::Fy, Role::Tz];
     if !needed.iter().all(|role| guess.of(*role).is_some()) {
         let expected = "at least Fx, Fy and Tz (or the three in the plane of the rod)";
@@ -162,7 +161,7 @@ fn incomplete(look: &mut Look, setup: &mut SetupText) {
     look.proposal.columns.retain(|(role, _)| *role == Role::Time);
     let names: Vec<String> = found.iter().map(|(.., column)| name_of(table, column.column)).collect();
     look.proposal.units.retain(|(name, _)| !names.contains(name));
-    setup.components = Some((components, units));
+    setup.components = Some(Components { columns, units });
 }
 
 /// Compares the times of a sensor and of its stage.
