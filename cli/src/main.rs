@@ -375,16 +375,13 @@ fn interrupted(name: &str, at: &Interrupted, marked: Option<&str>, caught: &sign
 
 /// Shows an error: with the place in the scene for people, on one line for everything else.
 fn complain(error: Error) {
-    let hint = error.unread_table().map(|file| format!("`vibrissa inspect {file}` shows what the file holds.\n"));
-    complain_of(error);
-    hint.iter().for_each(|hint| warn(hint));
-}
-
-fn complain_of(error: Error) {
+    let hint = error.unread_table().map(|file| format!("`vibrissa inspect {file}` shows what the file holds."));
     if io::stderr().is_terminal() {
         warn(&format!("{:?}\n", miette::Report::new(error)));
+        hint.iter().for_each(|hint| warn(&format!("{hint}\n")));
     } else {
-        warn(&format!("error: {error}\n"));
+        let hint = hint.map_or_else(String::new, |hint| format!("; {hint}"));
+        warn(&format!("error: {error}{hint}\n"));
     }
 }
 
