@@ -36,6 +36,14 @@ the fit fails is named (status 2). With friction, and without noise, nothing is 
 Several recordings are of one object, with one rod in one frame. Each is reconstructed on its own, into a folder of its name, and
 contour.csv, contour.svg and merged.json beside the folders are of all of them together.";
 
+const INSPECT: &str = "\
+Look at a recording, a stage or tracked points of any layout: what it holds, what must be mended, and the command that reads it.
+
+Prints format, rate, gaps and the motion of the clamp, and for each column the meaning, unit, range and noise, with the reason: sure, likely
+or open. With --rod the physics of the contacts tells units, axes and signs of the forces. All faults are in one table, with line, field, value and
+expectation. A guess that is open is a question, and the option that answers it. Then comes the command line that reads the files; it has
+been tried. Exit status 0: that command reads the files. Exit status 2: something must be mended or answered first.";
+
 const CALIBRATE: &str = "\
 Find stiffness, gains, clamp angle and other errors of rod and sensor from recordings.
 
@@ -132,6 +140,9 @@ pub enum Command {
     /// Write what a sensor at the clamp would record along a scene (CSV, SI units: t,x0,y0,phi0,f0x,f0y,m0z)
     #[command(after_help = guide::SIMULATE)]
     Simulate(Simulate),
+    /// Look at a recording, a stage or tracked points of any layout: what it holds, what must be mended, and the command that reads it
+    #[command(long_about = INSPECT, after_help = guide::INSPECT)]
+    Inspect(Inspect),
     /// Turn a recording of clamp reactions back into contact points, phases and the contour
     #[command(long_about = RECONSTRUCT, after_help = guide::RECONSTRUCT)]
     Reconstruct(Reconstruct),
@@ -205,6 +216,29 @@ pub struct Live {
     /// Directory of the results
     #[arg(long, value_name = "DIR", default_value = "out/live", value_parser = directory)]
     pub out: PathBuf,
+    #[command(flatten)]
+    pub written: Written,
+}
+
+/// Files to look at.
+#[derive(Debug, Args)]
+pub struct Inspect {
+    /// Recordings (CSV, TSV, LVM, XLSX, TDMS, MCAP), the table of a stage, or tracked points (frame,x,y). A sensor and its stage are put
+    /// together by their times
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// The rod, a TOML file with the table [rod] of a scene, or a scene: its stiffness and length tell units
+    #[arg(long, value_name = "FILE")]
+    pub rod: Option<PathBuf>,
+    /// The setup of the sensor, a TOML file as for `live`, if there is one
+    #[arg(long, value_name = "FILE")]
+    pub setup: Option<PathBuf>,
+    /// Write the setup file that the command needs, with comments
+    #[arg(long, value_name = "FILE", conflicts_with = "setup")]
+    pub write_setup: Option<PathBuf>,
+    /// Print the report as JSON
+    #[arg(long)]
+    pub json: bool,
     #[command(flatten)]
     pub written: Written,
 }

@@ -1,10 +1,11 @@
 //! Why a command fails.
 
 use rod_files::{
-    FilmError, LiveError, OutputError, ProfileError, ReconstructionError, SceneError, SimulationError, StudyError,
-    TruthError,
+    FilmError, LiveError, OutputError, ProfileError, ReconstructionError, RecordingError, SceneError, SimulationError,
+    StudyError, TruthError, quoted,
 };
 use vibrissa::contact::ContactError;
+use vibrissa::hw::recording::{TableError, TableProblem};
 use vibrissa_cli::{BudgetError, CalibrateError, FakeError, PaperError, WriteError};
 
 /// An option that the rod or the scene does not allow.
@@ -69,6 +70,32 @@ impl Error {
             | Self::Output(error) => Some(error),
             _ => None,
         }
+    }
+
+    /// The table that cannot be read, if this is why the command fails: the name of the file as a shell takes it.
+    pub fn unread_table(&self) -> Option<String> {
+        let Self::Live(error) = self else { return None };
+        let file = match error {
+            LiveError::Recording(
+                RecordingError::Empty { file }
+                | RecordingError::Missing { file, .. }
+                | RecordingError::Posed { file }
+                | RecordingError::Unusable { file, .. }
+                | RecordingError::TooFew { file, .. },
+            )
+            | LiveError::Rate { file }
+            | LiveError::StageRow { file, .. }
+            | LiveError::StageTable { file, .. } => file.display().to_string(),
+            LiveError::Recording(RecordingError::Table(TableError { file, problem, .. }))
+            | LiveError::Table(TableError { file, problem, .. })
+                if !matches!(problem, TableProblem::Unreadable(_)) =>
+            {
+                file.clone()
+            }
+            LiveError::NoSamples { file, .. } => file.clone(),
+            _ => return None,
+        };
+        Some(quoted(&file))
     }
 
     /// Whether the value of an option is wrong, as opposed to a file or a device.

@@ -62,6 +62,14 @@ Examples:
 
 Next: `vibrissa reconstruct recording.csv --rod scene.toml --truth scene.toml`.";
 
+pub const INSPECT: &str = "\
+Examples:
+  vibrissa inspect scan.csv --rod rod.toml
+  vibrissa inspect force.xlsx stage.csv --rod rod.toml --write-setup sensor.toml
+  vibrissa inspect scan.csv --unit Fx=mN --unit Fy=mN --unit Mz='N mm'
+
+Next: run the command that it prints. docs/recordings.md lists the formats, columns and units.";
+
 pub const RECONSTRUCT: &str = "\
 Examples:
   vibrissa reconstruct recording.csv --rod rod.toml

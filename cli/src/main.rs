@@ -6,6 +6,7 @@ mod arguments;
 mod error;
 mod film;
 mod guide;
+mod inspection;
 mod progress;
 mod reconstruction;
 mod recording_arguments;
@@ -59,6 +60,7 @@ fn main() -> ExitCode {
         Command::Elastica { file, out } => elastica(&file, out),
         Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
+        Command::Inspect(arguments) => inspection::inspect(arguments),
         Command::Reconstruct(arguments) => reconstruction::reconstruct(arguments),
         Command::Forces(arguments) => film::forces(arguments),
         Command::Budget(arguments) => accuracy::expect(arguments),
@@ -391,10 +393,13 @@ fn interrupted(name: &str, at: &Interrupted, marked: Option<&str>, caught: &sign
 
 /// Shows an error: with the place in the scene for people, on one line for everything else.
 fn complain(error: Error) {
+    let hint = error.unread_table().map(|file| format!("`vibrissa inspect {file}` shows what the file holds."));
     if io::stderr().is_terminal() {
         warn(&format!("{:?}\n", miette::Report::new(error)));
+        hint.iter().for_each(|hint| warn(&format!("{hint}\n")));
     } else {
-        warn(&format!("error: {error}\n"));
+        let hint = hint.map_or_else(String::new, |hint| format!("; {hint}"));
+        warn(&format!("error: {error}{hint}\n"));
     }
 }
 

@@ -1,11 +1,11 @@
 //! Options of all commands that read a recording: how the clamp moves, and how the file is written.
 
-use crate::values::{meaning, number, pair};
+use crate::values::{Meaning, STAGE, meaning, number, pair};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use rod_files::{ReadOptions, StageSpec};
 use std::path::PathBuf;
-use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, Role, TableOptions};
+use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, TableOptions};
 
 /// How the clamp moves, where the samples have no poses.
 #[derive(Debug, Args)]
@@ -28,15 +28,15 @@ pub struct Written {
     /// The mark before fractions
     #[arg(long, value_parser = PossibleValuesParser::new(["point", "comma"]))]
     decimal: Option<String>,
-    /// The line that names its columns, from 1
-    #[arg(long, value_name = "LINE", allow_negative_numbers = true)]
-    header: Option<u64>,
-    /// The unit of a column
+    /// The line that names its columns, from 1; or none: the columns are called 1, 2, ...
+    #[arg(long, value_name = "LINE", allow_negative_numbers = true, value_parser = header)]
+    header: Option<Header>,
+    /// The unit of a column; with a minus before it, as `f0x=-N`, the sign of the column is turned. Of the table of a stage alone: stage:COLUMN=UNIT
     #[arg(long, value_name = "COLUMN=UNIT", value_parser = pair)]
     unit: Vec<(String, String)>,
-    /// Which column is x0, y0, phi0, f0x, f0y, m0z, t, ...
+    /// Which column is x0, y0, phi0, f0x, f0y, m0z, t, ... Of the table of a stage alone: stage:MEANING=COLUMN
     #[arg(long, value_name = "MEANING=COLUMN", value_parser = meaning)]
-    column: Vec<(Role, String)>,
+    column: Vec<Meaning>,
     /// Which of the segments of an LVM file, from 1
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
     segment: Option<usize>,
@@ -51,12 +51,32 @@ impl From<Written> for ReadOptions {
             _ => Delimiter::Blanks,
         });
         let decimal = written.decimal.map(|name| if name == "comma" { Decimal::Comma } else { Decimal::Point });
-        let header = written.header.map_or(Header::Find, Header::Line);
-        let (units, segment) = (written.unit, written.segment);
-        let columns = written.column.into_iter().fold(ColumnMap::new(), |map, (role, name)| map.with(role, name));
-        Self {
-            options: TableOptions { delimiter, decimal, header, units, segment, ..TableOptions::default() },
-            columns,
-        }
+        let header = written.header.unwrap_or_default();
+        let (stage_units, units): (Vec<_>, Vec<_>) =
+            written.unit.into_iter().partition(|unit| unit.0.starts_with(STAGE));
+        let stage_units: Vec<(String, String)> =
+            stage_units.into_iter().map(|(name, unit)| (name.trim_start_matches(STAGE).to_owned(), unit)).collect();
+        let (stage_columns, columns): (Vec<Meaning>, Vec<Meaning>) =
+            written.column.into_iter().partition(|meaning| meaning.of_stage);
+        let map = |columns: Vec<Meaning>| {
+            columns.into_iter().fold(ColumnMap::new(), |map, meaning| map.with(meaning.role, meaning.column))
+        };
+        let options =
+            TableOptions { delimiter, decimal, header, units, segment: written.segment, ..TableOptions::default() };
+        let is_apart = !stage_units.is_empty() || !stage_columns.is_empty();
+        let stage = is_apart.then(|| {
+            // its layout is detected: it may be written in another way
+            let options = TableOptions { units: stage_units, ..TableOptions::default() };
+            Box::new(Self { options, columns: map(stage_columns), stage: None })
+        });
+        Self { options, columns: map(columns), stage }
+    }
+}
+
+/// A line of the header, or that there is none.
+fn header(text: &str) -> Result<Header, String> {
+    match text {
+        "none" => Ok(Header::None),
+        _ => text.parse().map(Header::Line).map_err(|_| "expected the number of a line, from 1, or none".to_owned()),
     }
 }

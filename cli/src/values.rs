@@ -68,11 +68,24 @@ pub fn pair(text: &str) -> Result<(String, String), String> {
     Ok((name.to_owned(), value.to_owned()))
 }
 
+/// Before what concerns the table of a stage alone.
+pub const STAGE: &str = "stage:";
+
 /// A meaning and its column.
-pub fn meaning(text: &str) -> Result<(Role, String), String> {
+#[derive(Clone, Debug)]
+pub struct Meaning {
+    pub role: Role,
+    pub column: String,
+    /// Whether the table of the stage is meant.
+    pub of_stage: bool,
+}
+
+/// A meaning and its column.
+pub fn meaning(text: &str) -> Result<Meaning, String> {
     let (name, column) = text.split_once('=').ok_or("expected two names with = between them")?;
+    let (of_stage, name) = name.strip_prefix(STAGE).map_or((false, name), |name| (true, name));
     let role = Role::of_name(name).ok_or_else(|| {
         format!("`{name}` means nothing, expected x0, y0, phi0, f0x, f0y, m0z, t or another name of docs/recordings.md")
     })?;
-    Ok((role, column.to_owned()))
+    Ok(Meaning { role, column: column.to_owned(), of_stage })
 }

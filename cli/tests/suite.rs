@@ -25,6 +25,7 @@ mod first_steps;
 mod forces;
 mod friction;
 mod friction_reconstructed;
+mod inspect;
 mod interrupt;
 mod laboratory;
 mod legs;

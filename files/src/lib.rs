@@ -8,6 +8,7 @@
 mod cycle;
 mod elastica;
 mod film;
+mod inspect;
 mod interrupt;
 mod interval;
 mod live;
@@ -30,6 +31,10 @@ mod toml_file;
 pub use cycle::{CYCLES, Cycle};
 pub use elastica::ElasticaRun;
 pub use film::{AtRestError, Ends, FilmError, FilmForces, FilmOptions, channels_of_columns};
+pub use inspect::{
+    Certainty, Fact, InspectFault, InspectOptions, InspectedColumn, InspectedFile, Inspection, Question, ReadCommand,
+    RodInspected, inspect, quoted,
+};
 pub use interrupt::{Interrupt, Interrupted};
 pub use interval::{Interval, intervals};
 pub use live::{

@@ -61,6 +61,7 @@ impl StageSource for Motion {
 
 /// The table of poses in a file.
 fn table(file: &Path, how: &ReadOptions) -> Result<StageTable, LiveError> {
+    let how = how.of_stage();
     let table = Table::read(file, &how.options).map_err(LiveError::Table)?;
     let roles = [Role::Time, Role::X0, Role::Y0, Role::Phi0];
     let columns = how.columns.find(&table, &roles, &[]).map_err(LiveError::Table)?;

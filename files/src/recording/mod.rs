@@ -56,6 +56,15 @@ pub struct ReadOptions {
     pub options: TableOptions,
     /// Which column means what.
     pub columns: ColumnMap,
+    /// The same of the table of a stage, where it differs.
+    pub stage: Option<Box<ReadOptions>>,
+}
+
+impl ReadOptions {
+    /// How to read the table of a stage.
+    pub fn of_stage(&self) -> &Self {
+        self.stage.as_deref().unwrap_or(self)
+    }
 }
 
 impl Recording {

@@ -10,6 +10,7 @@ pub mod tdms;
 
 #[cfg(feature = "recordings")]
 pub use tables::{
-    Cell, Column, ColumnMap, Columns, Contents, Decimal, Delimiter, Header, Recorded, Recorder, Role, Row, RowFault,
-    RowProblem, Table, TableError, TableOptions, TableProblem,
+    Basis, Cell, Column, ColumnGuess, ColumnMap, ColumnSummary, Columns, Contents, Decimal, Delimiter, FileFormat,
+    Header, Outline, Part, Quantity, Recorded, Recorder, Role, Row, RowFault, RowProblem, Sureness, Table, TableError,
+    TableGuess, TableKind, TableOptions, TableProblem, guess,
 };

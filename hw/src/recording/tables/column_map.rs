@@ -5,7 +5,7 @@ use super::error::{TableError, TableProblem, listed};
 use super::heading::Column;
 use super::role::{Role, si};
 use super::table::Table;
-use crate::sample::{Channels, Unit};
+use crate::sample::{Channels, Dimension, Unit, UnitError};
 use std::fmt::Write;
 
 /// Which column means what. Without a word, columns are found by the names of roles; what is said here goes before.
@@ -48,6 +48,11 @@ impl ColumnMap {
     pub fn with_channels<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
         self.channels = Some(names.into_iter().map(Into::into).collect());
         self
+    }
+
+    /// What was said: meanings with the names of their columns.
+    pub fn assigned(&self) -> impl Iterator<Item = (Role, &str)> {
+        self.assigned.iter().map(|(role, name)| (*role, name.as_str()))
     }
 
     /// Looks for columns: those that are needed, those that are welcome, and the channels.
@@ -131,17 +136,11 @@ fn twice(table: &Table, first: &Column, second: &Column) -> TableError {
 /// The column that goes by the role's own name, or else by one of the others; also with a unit after it, as `Fx_mN`.
 fn by_names(table: &Table, role: Role) -> Result<Option<Candidate<'_>>, TableError> {
     for names in [std::slice::from_ref(&role.name()), role.aliases()] {
-        let mut matching = table.columns().iter().enumerate().filter_map(|(at, column)| {
-            let unit = names.iter().find_map(|name| {
-                let rest = column.name.strip_prefix(name)?;
-                if rest.is_empty() {
-                    return Some(column.unit.as_deref());
-                }
-                let unit = rest.strip_prefix('_').filter(|_| column.unit.is_none())?;
-                role.dimension().and_then(|dimension| Unit::parse(unit, dimension).ok()).map(|_| Some(unit))
-            })?;
-            Some((at, unit))
-        });
+        let mut matching = table
+            .columns()
+            .iter()
+            .enumerate()
+            .filter_map(|(at, column)| unit_under(column, names, role).map(|unit| (at, unit)));
         if let Some(first) = matching.next() {
             let columns = table.columns();
             return match matching.next() {
@@ -151,6 +150,27 @@ fn by_names(table: &Table, role: Role) -> Result<Option<Candidate<'_>>, TableErr
         }
     }
     Ok(None)
+}
+
+/// The unit of a column that goes by one of these names, if it has one; none where it goes by another name.
+fn unit_under<'c>(column: &'c Column, names: &[&str], role: Role) -> Option<Option<&'c str>> {
+    names.iter().find_map(|name| {
+        let rest = column.name.strip_prefix(name)?;
+        if rest.is_empty() {
+            return Some(column.unit.as_deref());
+        }
+        let unit = rest.strip_prefix('_').filter(|_| column.unit.is_none())?;
+        role.dimension().and_then(|dimension| Unit::parse(unit, dimension).ok()).map(|_| Some(unit))
+    })
+}
+
+/// The role that a column is found by, and its unit if it has one, without a word in a map.
+pub(super) fn recognized(column: &Column) -> Option<(Role, Option<&str>)> {
+    let under = |names: fn(Role) -> &'static [&'static str]| {
+        Role::all().find_map(|role| unit_under(column, names(role), role).map(|unit| (role, unit)))
+    };
+    let own = Role::all().find_map(|role| unit_under(column, &[role.name()], role).map(|unit| (role, unit)));
+    own.or_else(|| under(Role::aliases))
 }
 
 /// The column with the factor of its unit; none where it is better left out.
@@ -165,8 +185,8 @@ fn place(table: &Table, role: Role, candidate: Candidate<'_>, strict: bool) -> R
         None if own => Ok(Some(Place { at, factor: 1.0 })),
         None if strict => Err(of(table, TableProblem::NoUnit { column: column.heading.clone(), role, dimension })),
         None => Ok(None),
-        Some(unit) => match Unit::parse(unit, dimension) {
-            Ok(unit) => Ok(Some(Place { at, factor: unit.factor })),
+        Some(unit) => match signed(unit, dimension) {
+            Ok(factor) => Ok(Some(Place { at, factor })),
             Err(source) if strict || own => {
                 Err(of(table, TableProblem::Unit { column: column.heading.clone(), source: Box::new(source) }))
             }
@@ -175,7 +195,15 @@ fn place(table: &Table, role: Role, candidate: Candidate<'_>, strict: bool) -> R
     }
 }
 
-fn is_channel(name: &str) -> bool {
+/// What one of a unit is in SI: negative where a minus before it turns the sign of the column, as `-mN` does.
+fn signed(unit: &str, dimension: Dimension) -> Result<f64, UnitError> {
+    match unit.strip_prefix('-') {
+        Some(turned) => Unit::parse(turned, dimension).map(|unit| -unit.factor),
+        None => Unit::parse(unit, dimension).map(|unit| unit.factor),
+    }
+}
+
+pub(super) fn is_channel(name: &str) -> bool {
     const PREFIXES: [&str; 9] = ["channel", "Channel", "ch", "Ch", "CH", "SG", "gauge", "Gauge", "voltage"];
     PREFIXES.iter().filter_map(|prefix| name.strip_prefix(prefix)).any(|rest| {
         let digits = rest.trim_start_matches([' ', '_', '-']);

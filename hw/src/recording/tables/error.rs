@@ -116,6 +116,20 @@ pub enum TableProblem {
         /// How many.
         segments: usize,
     },
+    /// A workbook that cannot be opened.
+    #[error(
+        "the workbook cannot be read: {what}; expected a sheet of names and numbers (.xlsx), or save the sheet as CSV"
+    )]
+    Workbook {
+        /// Why.
+        what: String,
+    },
+    /// Several sheets with a table.
+    #[error("{} sheets have tables ({}), expected one; say which in the option `segment`, from 1", names.len(), listed(names.iter().map(String::as_str)))]
+    Sheets {
+        /// Their names.
+        names: Vec<String>,
+    },
     /// Bytes that no text has.
     #[error("a byte of zero, which no text has, expected a table (CSV, TSV or LVM)")]
     Binary,

@@ -26,6 +26,8 @@ pub(super) struct Layout {
     pub headings: Vec<String>,
     /// Cells of the row of units.
     pub units: Option<Vec<String>>,
+    /// Its line.
+    pub units_line: Option<u64>,
     /// From here on there are rows.
     pub first: u64,
 }
@@ -90,7 +92,8 @@ impl Layout {
             None => mark(file, lines, &cells)?,
         };
         let rows: Vec<Row> = lines.iter().zip(cells).map(|(line, cells)| Row::new(line, cells, decimal)).collect();
-        let found = Self { delimiter, decimal, header: None, headings: Vec::new(), units: None, first: 0 };
+        let found =
+            Self { delimiter, decimal, header: None, headings: Vec::new(), units: None, units_line: None, first: 0 };
         let guessed = options.delimiter.is_none() && options.decimal.is_none();
         found.below_header(file, lines, &rows, &options.header, guessed)
     }
@@ -133,7 +136,11 @@ impl Layout {
             let next = rows[below..].iter().position(|row| !row.comment).map(|next| below + next);
             if let Some(next) = next.filter(|next| rows[*next].is_units() && rows[*next].fits(self.headings.len())) {
                 self.units = Some(rows[next].cells.clone());
+                self.units_line = Some(rows[next].line);
                 below = next + 1;
+                if *header == Header::Find {
+                    below += remarks(&rows[below..]);
+                }
             }
             // comments between the names and the rows are read with them
             self.first = rows[below - 1].line + 1;
@@ -184,14 +191,25 @@ fn names(rows: &[Row], first: Option<usize>) -> Option<usize> {
     let text: Vec<usize> = (0..rows.len()).filter(|&i| !rows[i].comment).collect();
     let above = text.windows(2).find(|pair| fits(&rows[pair[0]]) && rows[pair[1]].is_data()).map(|pair| pair[0]);
     let with_units = |triple: &&[usize]| {
-        let [names, units, row] = [&rows[triple[0]], &rows[triple[1]], &rows[triple[2]]];
-        fits(names) && units.is_units() && units.cells.len() >= names.names().len() && row.is_data()
+        let [names, units] = [&rows[triple[0]], &rows[triple[1]]];
+        let below = &rows[triple[1] + 1..];
+        let data = below.get(remarks(below)).is_some_and(Row::is_data) || rows[triple[2]].is_data();
+        fits(names) && units.is_units() && units.cells.len() >= names.names().len() && data
     };
     let above_units = text.windows(3).find(with_units).map(|triple| triple[0]);
     // where the row of units passes for names, the names are above it
     let found = above.into_iter().chain(above_units).min();
     let commented = first.checked_sub(1).filter(|&i| rows[i].comment && fits(&rows[i]));
     found.or(commented).or_else(|| rows[..first].iter().rposition(|row| !row.comment && row.is_names()))
+}
+
+/// Most rows of remarks between the units and the rows. More: a table without a row of numbers near it is taken for remarks.
+const MOST_REMARKS: usize = 3;
+
+/// How many rows of text are above the first row of numbers: remarks below the units. None where there are more than a header has.
+fn remarks(rows: &[Row]) -> usize {
+    let count = rows.iter().take_while(|row| !row.is_data()).count();
+    if count <= MOST_REMARKS && rows[..count].iter().all(|row| row.comment || row.is_names()) { count } else { 0 }
 }
 
 fn most_common(counts: impl Iterator<Item = usize>) -> usize {
@@ -245,7 +263,7 @@ fn sniff(body: &[&Line<'_>], decimal: Option<Decimal>) -> (Delimiter, Option<Dec
 /// Whether a line is mostly made of what numbers and what separates them is made of.
 fn is_numeric(line: &str) -> bool {
     let of_numbers = |c: &char| {
-        c.is_ascii_digit() || c.is_whitespace() || matches!(c, '+' | '-' | '.' | ',' | ';' | 'e' | 'E' | '"')
+        c.is_ascii_digit() || c.is_whitespace() || matches!(c, '+' | '-' | '.' | ',' | ';' | 'e' | 'E' | '"' | '\'')
     };
     let count = line.chars().filter(of_numbers).count();
     line.contains(|c: char| c.is_ascii_digit()) && 10 * count >= 7 * line.chars().count()

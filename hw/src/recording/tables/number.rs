@@ -44,6 +44,10 @@ fn unusual(text: &str, decimal: Decimal) -> Option<f64> {
         "-1.#INF" => return Some(f64::NEG_INFINITY),
         _ => {}
     }
+    // a spreadsheet's mark of a number that is kept as text
+    if let Some(rest) = text.strip_prefix('\'') {
+        return if rest.starts_with('\'') { None } else { number(rest, decimal) };
+    }
     let digits = text.strip_prefix(['+', '-', '\u{2212}']).unwrap_or(text);
     if text.len() > 64 || !digits.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | ',')) {
         return None;
@@ -81,13 +85,14 @@ mod tests {
             ("Inf", f64::INFINITY),
             ("-1.#INF", f64::NEG_INFINITY),
             ("0x80000001", 2_147_483_649.0),
+            ("'0.5", 0.5),
         ] {
             assert_eq!(number(text, Decimal::Point), Some(value), "{text}");
         }
         for text in ["NaN", "nan", "NA", "N/A", "#N/A", "null", "-nan(ind)"] {
             assert!(number(text, Decimal::Point).unwrap().is_nan(), "{text}");
         }
-        for text in ["", "0,5", "1 000", "1.2.3", "12:30", "OK", "e5", "D", "0x", "1,234.5", "--"] {
+        for text in ["", "0,5", "1 000", "1.2.3", "12:30", "OK", "e5", "D", "0x", "1,234.5", "--", "'", "''1"] {
             assert_eq!(number(text, Decimal::Point), None, "{text}");
         }
     }

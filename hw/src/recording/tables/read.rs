@@ -4,9 +4,10 @@ use super::error::{TableError, TableProblem, listed};
 use super::heading::{Column, bare_unit};
 use super::layout::{Layout, Line};
 use super::lvm;
-use super::options::TableOptions;
+use super::options::{Decimal, Delimiter, TableOptions};
 use super::split::{Lines, MOST_COLUMNS, Splitter, comment};
 use super::table::Table;
+use super::workbook;
 use std::borrow::Cow;
 use std::io::Read;
 use std::path::Path;
@@ -47,15 +48,16 @@ impl Table {
     /// # Errors
     /// As [`read_all`](Self::read_all).
     pub fn parse_all(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Vec<Self>, TableError> {
-        let bytes = &*utf8(bytes);
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let whole = bytes;
+        let options = &*as_written(whole, options);
+        let bytes = &*text_of(file, bytes, options)?;
         if let Some(zero) = bytes.iter().position(|byte| *byte == 0) {
             let line = 1 + bytes[..zero].iter().filter(|byte| **byte == b'\n').count() as u64;
             return Err(TableProblem::Binary.at(file, Some(line)));
         }
         let mut tables = if lvm::is_lvm(bytes) {
             lvm::tables(file, bytes, options)?
-        } else if let Some(segment) = options.segment {
+        } else if let Some(segment) = options.segment.filter(|_| !is_workbook(whole)) {
             return Err(TableProblem::NoSegments { segment }.at(file, None));
         } else {
             vec![text_table(file, bytes, options)?]
@@ -84,6 +86,30 @@ impl Table {
     }
 }
 
+/// Whether this is a workbook of a spreadsheet: an archive (ZIP), which no text begins like.
+pub(super) fn is_workbook(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"PK\x03\x04")
+}
+
+/// The options for a file: the text of a workbook is written by `workbook`, whatever its own decimal mark is.
+pub(super) fn as_written<'o>(whole: &[u8], options: &'o TableOptions) -> Cow<'o, TableOptions> {
+    if !is_workbook(whole) {
+        return Cow::Borrowed(options);
+    }
+    Cow::Owned(TableOptions { delimiter: Some(Delimiter::Tab), decimal: Some(Decimal::Point), ..options.clone() })
+}
+
+/// The text of a file in UTF-8, without a mark at its start; of a workbook that of its sheet.
+pub(super) fn text_of<'b>(file: &str, bytes: &'b [u8], options: &TableOptions) -> Result<Cow<'b, [u8]>, TableError> {
+    if is_workbook(bytes) {
+        return workbook::text(file, bytes, options).map(Cow::Owned);
+    }
+    Ok(match utf8(bytes) {
+        Cow::Borrowed(bytes) => Cow::Borrowed(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)),
+        owned => owned,
+    })
+}
+
 /// The text in UTF-8 where its mark says that it has two bytes a letter, as spreadsheets write it.
 fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
     let (letters, letter): (_, fn([u8; 2]) -> u16) = match bytes {
@@ -97,7 +123,7 @@ fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned(text.into_bytes())
 }
 
-fn bytes(file: &Path, name: &str, options: &TableOptions) -> Result<Vec<u8>, TableError> {
+pub(super) fn bytes(file: &Path, name: &str, options: &TableOptions) -> Result<Vec<u8>, TableError> {
     let unreadable = |source| TableProblem::Unreadable(source).at(name, None);
     let mut bytes = Vec::new();
     let input = std::fs::File::open(file).map_err(unreadable)?;
@@ -114,13 +140,13 @@ fn bytes(file: &Path, name: &str, options: &TableOptions) -> Result<Vec<u8>, Tab
 }
 
 /// Lines that are looked at to find out how a table is written.
-const SAMPLE: usize = 500;
+pub(super) const SAMPLE: usize = 500;
 
 /// A table of text: names above rows of numbers, with anything before them.
 fn text_table(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Table, TableError> {
     let lines = Lines::new(bytes).filter(|(_, text)| !text.trim().is_empty());
     let sample: Vec<Line<'_>> = lines.take(SAMPLE).map(|(number, text)| Line { number, text }).collect();
-    let Layout { delimiter, decimal, header, headings, units, first } = Layout::find(file, &sample, options)?;
+    let Layout { delimiter, decimal, header, headings, units, first, .. } = Layout::find(file, &sample, options)?;
 
     if headings.len() > MOST_COLUMNS {
         return Err(TableProblem::TooManyColumns { most: MOST_COLUMNS }.at(file, header.unwrap_or(first)));

@@ -129,6 +129,11 @@ const ROLES: [Line; Role::COUNT] = [
 impl Role {
     pub(super) const COUNT: usize = 29;
 
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        ROLES.iter().map(|line| line.0)
+    }
+
     /// Its own name, which stands for SI units.
     pub fn name(self) -> &'static str {
         ROLES[self as usize].1

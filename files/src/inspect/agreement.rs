@@ -1,0 +1,131 @@
+//! How well samples in one frame agree with a single frictionless contact, and with the work of the clamp.
+
+use super::energy::bending_energy;
+use super::frame::{FEWEST, SIGMAS};
+use nalgebra::Matrix3;
+use vibrissa::reconstruct::single;
+use vibrissa::rod::Reactions;
+use vibrissa::{Rod, Sample};
+
+/// Averages over which energy and work are compared. Larger: less noise, fewer comparisons.
+const LAG: usize = 4;
+/// Error allowed in the length of the rod and, relative to m0z^2, in the phase criterion.
+const SLACK: f64 = 0.03;
+/// Largest error allowed in the place of a contact, however large the noise, in lengths of the rod.
+const WIDEST: f64 = 0.3;
+
+/// Shares of the averages in contact that satisfy a condition and that are possible, and the correlation of work and energy.
+pub(super) fn agreement(
+    samples: &[Sample],
+    noise: [f64; 2],
+    stiffness: f64,
+    length: Option<f64>,
+) -> Option<(f64, f64, f64)> {
+    let force = |sample: &Sample| sample.reactions.f0x.hypot(sample.reactions.f0y);
+    let largest = samples.iter().map(force).fold(0.0, f64::max);
+    let touches = |sample: &Sample| {
+        let force = force(sample);
+        force > 1e-6 * largest && (force > SIGMAS * noise[0] || sample.reactions.m0z.abs() > SIGMAS * noise[1])
+    };
+    // the length does not matter to where the moment vanishes
+    let rod = Rod::new(length.unwrap_or((stiffness / largest).sqrt()), stiffness).ok()?;
+    let found: Vec<Option<Touched>> =
+        samples.iter().map(|sample| touches(sample).then(|| Touched::of(&rod, sample, noise, stiffness))).collect();
+    let contacts: Vec<&Touched> = found.iter().flatten().collect();
+    if contacts.len() < FEWEST {
+        return None;
+    }
+    let length = length.or_else(|| length_of(&contacts))?;
+    let share = |holds: &dyn Fn(&Touched) -> bool| {
+        contacts.iter().filter(|touched| holds(touched)).count() as f64 / contacts.len() as f64
+    };
+    let possible = |touched: &Touched| touched.excess <= touched.slack && touched.s <= (1.0 + touched.reach) * length;
+    let explained = share(&|touched| {
+        possible(touched)
+            && (touched.excess.abs() <= touched.slack || (touched.s / length - 1.0).abs() <= touched.reach)
+    });
+    let energies: Vec<f64> = found
+        .iter()
+        .zip(samples)
+        .map(|(touched, sample)| {
+            touched.as_ref().map_or(0.0, |touched| {
+                if touched.s.is_finite() { bending_energy(sample, stiffness, touched.s) } else { 0.0 }
+            })
+        })
+        .collect();
+    let contact: Vec<bool> = found.iter().map(Option::is_some).collect();
+    Some((explained, share(&possible), correlation(samples, &contact, &energies)))
+}
+
+/// An average in contact.
+struct Touched {
+    /// Where the moment vanishes; infinite where it does not.
+    s: f64,
+    /// m0z^2 - 2 EI (f0y sin phi0 + f0x cos phi0), and what noise and rod may make of it.
+    excess: f64,
+    slack: f64,
+    /// Relative error of the place that is allowed.
+    reach: f64,
+}
+
+impl Touched {
+    fn of(rod: &Rod, sample: &Sample, noise: [f64; 2], stiffness: f64) -> Self {
+        let Reactions { f0x, f0y, m0z } = sample.reactions;
+        let (sin, cos) = sample.pose.phi.sin_cos();
+        let touch = single(rod, sample.pose, sample.reactions, &Matrix3::zeros());
+        let s = touch.map_or_else(|none| none.touch().map_or(f64::INFINITY, |touch| touch.s), |touch| touch.s);
+        let relative = |noise: f64, value: f64| SIGMAS * noise / value.abs().max(f64::MIN_POSITIVE);
+        Self {
+            s,
+            excess: m0z * m0z - 2.0 * stiffness * (f0y * sin + f0x * cos),
+            slack: SLACK * m0z * m0z + SIGMAS * (2.0 * m0z.abs() * noise[1] + 2.8 * stiffness * noise[0]),
+            reach: (SLACK + relative(noise[1], m0z) + relative(noise[0], f0x.hypot(f0y))).min(WIDEST),
+        }
+    }
+}
+
+/// The length of the rod, from the contacts that are not tangential: half of them are at the tip, or more.
+fn length_of(contacts: &[&Touched]) -> Option<f64> {
+    let finite = contacts.iter().filter(|touched| touched.s.is_finite());
+    let mut off: Vec<f64> =
+        finite.clone().filter(|touched| touched.excess < -touched.slack).map(|touched| touched.s).collect();
+    if 10 * off.len() < contacts.len() {
+        return finite.map(|touched| touched.s).max_by(f64::total_cmp).map(|most| (1.0 + SLACK) * most);
+    }
+    off.sort_unstable_by(f64::total_cmp);
+    off.get(off.len() / 2).copied()
+}
+
+/// Correlation, about 0, of the work of the clamp and the change of the elastic energy. Jumps, in which energy is lost, count little.
+fn correlation(samples: &[Sample], contact: &[bool], energies: &[f64]) -> f64 {
+    let work = |k: usize| {
+        let (a, b) = (&samples[k], &samples[k + 1]);
+        let mean = |of: fn(&Reactions) -> f64| {
+            0.5 * [(a, contact[k]), (b, contact[k + 1])]
+                .iter()
+                .filter(|one| one.1)
+                .map(|one| of(&one.0.reactions))
+                .sum::<f64>()
+        };
+        mean(|r| r.f0x) * (b.pose.x - a.pose.x)
+            + mean(|r| r.f0y) * (b.pose.y - a.pose.y)
+            + mean(|r| r.m0z) * (b.pose.phi - a.pose.phi)
+    };
+    let steps: Vec<(f64, f64)> = (0..samples.len().saturating_sub(LAG))
+        .step_by(LAG)
+        .filter(|&k| contact[k] || contact[k + LAG])
+        .map(|k| ((k..k + LAG).map(work).sum(), energies[k + LAG] - energies[k]))
+        .collect();
+    let limit = |of: fn(&(f64, f64)) -> f64| {
+        let mut sizes: Vec<f64> = steps.iter().map(|step| of(step).abs()).collect();
+        sizes.sort_unstable_by(f64::total_cmp);
+        sizes.get(sizes.len() * 9 / 10).copied().unwrap_or_default()
+    };
+    let limits = [limit(|step| step.0), limit(|step| step.1)];
+    let sums = steps.iter().fold([0.0; 3], |[wu, ww, uu], (w, u)| {
+        let (w, u) = (w.clamp(-limits[0], limits[0]), u.clamp(-limits[1], limits[1]));
+        [wu + w * u, ww + w * w, uu + u * u]
+    });
+    let found = sums[0] / (sums[1] * sums[2]).sqrt();
+    if found.is_finite() { found } else { 0.0 }
+}

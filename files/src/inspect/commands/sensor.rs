@@ -1,0 +1,177 @@
+//! The command for a sensor with its stage.
+
+use super::{is_answered, rod, scan, start, tried};
+use crate::inspect::InspectOptions;
+use crate::inspect::frame::ReactionFrame;
+use crate::inspect::look::{Content, Look};
+use crate::inspect::physics::{Reacting, physics};
+use crate::inspect::proposal::{Proposal, name_of};
+use crate::inspect::report::{InspectedFile, Question, ReadCommand};
+use crate::inspect::setup_text::{Components, SetupText};
+use crate::{ReadOptions, Setup, StageSpec};
+use vibrissa::hw::recording::Role;
+
+/// The stage whose times overlap most with those of a sensor.
+pub(super) fn stage_of(looks: &[Look], sensor: usize, stages: &[usize]) -> Option<usize> {
+    let Some([first, last]) = looks[sensor].times() else {
+        return stages.first().copied().filter(|_| stages.len() == 1);
+    };
+    let overlap =
+        |stage: usize| looks[stage].times().map_or(f64::NEG_INFINITY, |[from, to]| last.min(to) - first.max(from));
+    stages.iter().copied().max_by(|a, b| overlap(*a).total_cmp(&overlap(*b)))
+}
+
+const WRENCH: [(Role, &str); 6] =
+    [(Role::Fx, "Fx"), (Role::Fy, "Fy"), (Role::Fz, "Fz"), (Role::Tx, "Tx"), (Role::Ty, "Ty"), (Role::Tz, "Tz")];
+
+pub(super) fn sensor(
+    looks: &mut [Look],
+    k: usize,
+    stage: Option<usize>,
+    options: &InspectOptions,
+) -> Option<ReadCommand> {
+    let mut setup = SetupText::default();
+    if let Content::Topic(topic) = &looks[k].content {
+        setup.topic = Some(topic.clone());
+    }
+    let is_scale_missing = looks[k].content == Content::Raw && options.setup.is_none();
+    if is_scale_missing && looks[k].report.questions.is_empty() {
+        looks[k].report.questions.push(Question {
+            text: "what makes N and N m of these raw values?".to_owned(),
+            answers: vec![
+                "--setup FILE with a calibration or a matrix in [sensor], and columns in [recording]".to_owned(),
+            ],
+        });
+    }
+    if looks[k].content == Content::Wrench {
+        incomplete(&mut looks[k], &mut setup);
+    }
+    let mut proposal = looks[k].proposal.clone();
+    let (place, spec) = match stage {
+        Some(stage) => {
+            times(looks, k, stage);
+            let path = looks[stage].path.clone();
+            let name = path.display().to_string();
+            looks[k].report.fact("stage", format!("{name} has the poses of these times"));
+            (format!("table:{name}"), Some(StageSpec::Table(path)))
+        }
+        None => {
+            looks[k].report.questions.push(Question {
+                text: "where is the clamp at these times?".to_owned(),
+                answers: vec!["--stage table:FILE".into(), "--stage constant:SPEED (with --path SCENE)".into()],
+            });
+            ("table:STAGE.csv".to_owned(), None)
+        }
+    };
+    let of_stage = stage.map(|stage| looks[stage].proposal.clone());
+    let is_settled = is_answered(&looks[k].report) && stage.is_none_or(|stage| is_answered(&looks[stage].report));
+    let mut reads = false;
+    if is_settled {
+        let given = || options.setup.as_ref().map(|given| given.1.clone());
+        let made = |text: &SetupText| Setup::parse("setup.toml".as_ref(), &text.text()).ok();
+        let read = combined(&proposal, of_stage.as_ref());
+        let first = given().or_else(|| if setup.is_needed() { made(&setup) } else { Some(Setup::default()) });
+        if let Some(found) = first.and_then(|first| scan(options, first, spec.clone(), read.clone())) {
+            let samples = tried(&found, &looks[k].path, &mut looks[k].report);
+            reads = samples.is_some();
+            if let Some(samples) = samples.filter(|_| options.setup.is_none()) {
+                let columns = Reacting {
+                    names: ["-Fx", "-Fy", "-Tz"].map(str::to_owned),
+                    columns: [0; 3],
+                    is_written: [true; 3],
+                    is_given: false,
+                    units: [Some("N"), Some("N"), Some("N m")],
+                    is_turned: [false; 3],
+                    is_own: false,
+                };
+                let rod = rod(options).map(|rod| &rod.rod);
+                setup.frame = physics(&mut looks[k].report, &samples, &columns, rod, None);
+                settle_sense(&mut looks[k].report, setup.frame);
+                reads = looks[k].report.questions.is_empty();
+            }
+        }
+    }
+    if options.setup.is_some() {
+        setup = SetupText::default();
+    }
+    let mut words = [start("reconstruct", &looks[k].path, options), vec!["--stage".into(), place]].concat();
+    let is_made = setup.is_needed() || options.write_setup.is_some();
+    match (&options.setup, is_made) {
+        (Some((file, _)), _) => words.extend(["--setup".into(), file.display().to_string()]),
+        (None, true) => words.extend(["--setup".into(), setup_name(options)]),
+        (None, false) => {}
+    }
+    proposal.units.dedup();
+    words.extend(proposal.layout_words());
+    words.extend(proposal.words(""));
+    words.extend(of_stage.iter().flat_map(|stage| stage.words("stage:")));
+    let text = (is_made && options.setup.is_none()).then(|| setup.text());
+    Some(ReadCommand { words, setup: text, reads })
+}
+
+/// Asks for the frame of a sensor where the physics does not decide it.
+fn settle_sense(file: &mut InspectedFile, frame: Option<ReactionFrame>) {
+    if frame.is_some() {
+        return;
+    }
+    file.questions.pop();
+    file.questions.push(Question {
+        text: "along which axes of the scene does the sensor lie, and does it measure loads or reactions?".to_owned(),
+        answers: vec![
+            "--setup FILE with axes and sense in [mounting]; --write-setup FILE makes one to begin with".to_owned(),
+        ],
+    });
+}
+
+/// The name of the setup file that is made.
+fn setup_name(options: &InspectOptions) -> String {
+    options.write_setup.as_ref().map_or_else(|| "setup.toml".to_owned(), |file| file.display().to_string())
+}
+
+fn combined(sensor: &Proposal, stage: Option<&Proposal>) -> ReadOptions {
+    let stage = stage.filter(|stage| !stage.columns.is_empty() || !stage.units.is_empty());
+    ReadOptions { stage: stage.map(|stage| Box::new(stage.read())), ..sensor.read() }
+}
+
+/// A wrench without some of its components is read as raw values of those that are there.
+fn incomplete(look: &mut Look, setup: &mut SetupText) {
+    let Some((table, guess)) = &look.table else { return };
+    let found: Vec<_> =
+        WRENCH.iter().filter_map(|(role, name)| guess.of(*role).map(|column| (*role, *name, column))).collect();
+    if found.len() == WRENCH.len() {
+        return;
+    }
+    let missing: Vec<&str> = WRENCH.iter().filter(|(role, _)| guess.of(*role).is_none()).map(|one| one.1).collect();
+    let unit = |torque: bool| {
+        let of = found.iter().filter(|(role, ..)| (*role as usize >= Role::Tx as usize) == torque);
+        of.filter_map(|(_, _, column)| column.unit).next().map(str::to_owned)
+    };
+    let units = [unit(false).unwrap_or_else(|| "N".to_owned()), unit(true).unwrap_or_else(|| "N m".to_owned())];
+    let columns = found.iter().map(|(_, name, column)| (*name, name_of(table, column.column))).collect();
+    let needed = [Role::Fx, Role::Fy, Role::Tz];
+    if !needed.iter().all(|role| guess.of(*role).is_some()) {
+        let expected = "at least Fx, Fy and Tz (or the three in the plane of the rod)";
+        return look.report.prevents(table.header_line(), missing.join(", "), "no such column", expected);
+    }
+    look.report.fact(
+        "components",
+        format!("{} are missing, which a planar rod does not need: the setup says so", missing.join(", ")),
+    );
+    // as raw values they go by their names, and their units are those of the setup
+    look.proposal.columns.retain(|(role, _)| *role == Role::Time);
+    let names: Vec<String> = found.iter().map(|(.., column)| name_of(table, column.column)).collect();
+    look.proposal.units.retain(|(name, _)| !names.contains(name));
+    setup.components = Some(Components { columns, units });
+}
+
+/// Compares the times of a sensor and of its stage.
+fn times(looks: &mut [Look], sensor: usize, stage: usize) {
+    let (Some([first, last]), Some([from, to])) = (looks[sensor].times(), looks[stage].times()) else { return };
+    let common = (last.min(to) - first.max(from)).max(0.0);
+    let part = common / (last - first).max(f64::MIN_POSITIVE);
+    let text = format!("{first:.4} to {last:.4} s, the stage {from:.4} to {to:.4} s: {:.0} % in common", 100.0 * part);
+    looks[sensor].report.fact("times", text.clone());
+    if common <= 0.0 {
+        looks[sensor].report.prevents(None, "time", text, "the times of one clock, or times that begin together");
+    }
+}

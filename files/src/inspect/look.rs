@@ -1,0 +1,254 @@
+//! A look at one file.
+
+use super::binary;
+use super::layout::layout;
+use super::motion::motion;
+use super::physics::unit_question;
+use super::proposal::{Proposal, name_of};
+use super::report::{Certainty, InspectedColumn, InspectedFile, Question};
+use super::rows::rows;
+use super::values::{channel, poses};
+use crate::ReadOptions;
+use std::path::{Path, PathBuf};
+use vibrissa::hw::recording::{ColumnGuess, Header, Quantity, Role, Sureness, Table, TableGuess, TableKind, guess};
+use vibrissa::hw::{Dimension, Unit};
+use vibrissa::reconstruct::noise_estimate::estimate;
+
+/// What a file is for.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Content {
+    /// Reactions with poses.
+    Reactions,
+    /// Forces and moments of a sensor.
+    Wrench,
+    /// Poses with times.
+    Stage,
+    /// Raw values.
+    Raw,
+    /// Points on a rod.
+    Frames,
+    /// Wrenches of a topic (MCAP).
+    Topic(String),
+    /// None of these, or it cannot be read.
+    Other,
+}
+
+/// A file that was looked at, with what its command needs.
+#[derive(Debug)]
+pub(super) struct Look {
+    pub path: PathBuf,
+    pub report: InspectedFile,
+    pub content: Content,
+    pub table: Option<(Table, TableGuess)>,
+    pub proposal: Proposal,
+}
+
+impl Look {
+    pub fn at(path: &Path, read: &ReadOptions) -> Self {
+        let file = path.display().to_string();
+        let mut look = Self {
+            path: path.to_path_buf(),
+            report: InspectedFile { file, ..InspectedFile::default() },
+            content: Content::Other,
+            table: None,
+            proposal: Proposal { layout: read.options.clone(), columns: Vec::new(), units: Vec::new() },
+        };
+        let starts = |magic: &[u8]| starts_with(path, magic);
+        if starts(b"TDSm") {
+            look.content = Content::Raw;
+            binary::tdms(path, &mut look.report);
+        } else if starts(b"\x89MCAP") {
+            look.content = binary::mcap(path, &mut look.report).map_or(Content::Other, Content::Topic);
+        } else {
+            look.table(read);
+        }
+        look
+    }
+
+    fn table(&mut self, read: &ReadOptions) {
+        "no table".clone_into(&mut self.report.kind);
+        let Some((table, header, read)) = layout(&self.path, read, &mut self.report) else { return };
+        let read = &read;
+        self.proposal.layout.header = header;
+        self.proposal.layout.units.clear();
+        let is_named = self.proposal.layout.header != Header::None;
+        let guess = guess(&table, is_named, &read.columns);
+        self.content = match guess.kind {
+            TableKind::Reactions => Content::Reactions,
+            TableKind::Wrench => Content::Wrench,
+            TableKind::Stage => Content::Stage,
+            TableKind::Raw => Content::Raw,
+            TableKind::Frames => Content::Frames,
+            TableKind::Other => Content::Other,
+        };
+        self.report.kind = match self.content {
+            Content::Reactions => "forces and moments with the poses of the clamp",
+            Content::Wrench => "forces and moments of a sensor, without poses",
+            Content::Stage => "poses of the clamp, without forces: a stage",
+            Content::Raw => "raw values of a sensor",
+            Content::Frames => "points on the rod, frame by frame",
+            Content::Topic(_) | Content::Other => "no columns that are understood",
+        }
+        .to_owned();
+        rows(&mut self.report, &table, &guess);
+        if let Some(path) = poses(&table, &guess).and_then(|poses| motion(&poses)) {
+            self.report.fact("motion of the clamp", path);
+        }
+        self.report.columns = guess.columns.iter().map(|column| described(&table, column)).collect();
+        if self.content == Content::Frames {
+            of_frames(&mut self.report, &guess);
+        }
+        self.propose(&table, &guess, read);
+        if self.content == Content::Other {
+            let found: Vec<&str> = table.columns().iter().map(|column| column.heading.as_str()).take(20).collect();
+            let expected =
+                "times with poses, forces and moments, raw values, or points; name them with --column MEANING=COLUMN";
+            self.report.prevents(table.header_line(), "columns", found.join(", "), expected);
+        }
+        self.table = Some((table, guess));
+    }
+
+    /// The options for the columns, and what must be told of them.
+    fn propose(&mut self, table: &Table, guess: &TableGuess, read: &ReadOptions) {
+        let is_given = |name: &str| read.options.units.iter().any(|(column, _)| column == name);
+        for column in guess.columns.iter().filter(|column| column.role.is_some()) {
+            let Some(role) = column.role else { continue };
+            let name = name_of(table, column.column);
+            let is_given_role = read.columns.assigned().any(|(assigned, _)| assigned == role);
+            // a reader takes reactions for what their own names say, and a wrench beside poses for nothing
+            if !column.is_recognized || is_given_role {
+                self.proposal.set_column(role, &name);
+            }
+            if column.meaning.sureness == Sureness::Open {
+                let text = format!("is `{name}` {role}?");
+                self.report.questions.push(Question { text, answers: vec![format!("--column {role}={name}")] });
+            }
+            let Some(dimension) = role.dimension() else { continue };
+            match column.unit {
+                Some(unit) if !column.is_unit_known && !is_given(&name) => {
+                    self.proposal.set_unit(&name, unit.to_owned())
+                }
+                Some(_) => {}
+                None => self.report.questions.push(ask_unit(column, &name, dimension)),
+            }
+        }
+        for (name, unit) in &read.options.units {
+            self.proposal.set_unit(name, unit.clone());
+        }
+        let needed: &[Role] = match self.content {
+            Content::Reactions => &[Role::X0, Role::Y0, Role::Phi0, Role::F0x, Role::F0y, Role::M0z],
+            Content::Stage => &[Role::Time, Role::X0, Role::Y0, Role::Phi0],
+            Content::Wrench => &[Role::Time],
+            _ => &[],
+        };
+        let missing: Vec<&str> =
+            needed.iter().filter(|role| guess.of(**role).is_none()).map(|role| role.name()).collect();
+        if !missing.is_empty() {
+            let found: Vec<&str> = table.columns().iter().map(|column| column.heading.as_str()).take(20).collect();
+            let expected = format!(
+                "a column for each of {}; name it with --column {}=COLUMN, or add it{}",
+                missing.join(", "),
+                missing[0],
+                if missing.iter().any(|name| matches!(*name, "x0" | "y0" | "phi0")) {
+                    ": a coordinate or angle that stays the same is a column of one number"
+                } else {
+                    ""
+                }
+            );
+            self.report.prevents(
+                table.header_line(),
+                missing.join(", "),
+                format!("found {}", found.join(", ")),
+                expected,
+            );
+        }
+    }
+
+    /// First and last time, s; none where they are not known.
+    pub fn times(&self) -> Option<[f64; 2]> {
+        let (table, guess) = self.table.as_ref()?;
+        let times = channel(table, guess, Role::Time)?;
+        let finite = times.iter().copied().filter(|time| time.is_finite());
+        let (first, last) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(t), b.max(t)));
+        (first <= last).then_some([first, last])
+    }
+}
+
+fn starts_with(path: &Path, magic: &[u8]) -> bool {
+    use std::io::Read;
+    let mut start = vec![0; magic.len()];
+    std::fs::File::open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok() && start == magic
+}
+
+fn ask_unit(column: &ColumnGuess, name: &str, dimension: Dimension) -> Question {
+    let units: &[&str] = match dimension {
+        Dimension::Force => &["N", "mN"],
+        Dimension::Torque => &["N m", "mN m", "N mm"],
+        Dimension::Length => &["m", "mm"],
+        Dimension::Angle => &["rad", "deg"],
+        Dimension::Time => &["s", "ms"],
+        Dimension::Temperature => &["degC"],
+    };
+    let text = format!("{} {}", unit_question(name), column.unit_basis.why);
+    Question {
+        text,
+        answers: units.iter().map(|unit| format!("--unit {}", quoted(&format!("{name}={unit}")))).collect(),
+    }
+}
+
+/// A word of a command line as a shell takes it.
+pub(super) fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./:=,+@%".contains(letter);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+pub(super) fn certainty(sureness: Sureness) -> Certainty {
+    match sureness {
+        Sureness::Sure => Certainty::Sure,
+        Sureness::Likely => Certainty::Likely,
+        Sureness::Open => Certainty::Open,
+    }
+}
+
+/// The meanings of columns of points.
+fn of_frames(file: &mut InspectedFile, guess: &TableGuess) {
+    for (described, column) in file.columns.iter_mut().zip(&guess.columns) {
+        // a unit of x and y is an option of the command, and told apart
+        (described.unit, described.unit_why) = (None, String::new());
+        described.unit_certainty = Certainty::Sure;
+        described.meaning = match (column.quantity, column.axis) {
+            (Some(Quantity::Frame), _) => Some("frame".to_owned()),
+            (Some(Quantity::Position), Some(0)) => Some("x".to_owned()),
+            (Some(Quantity::Position), Some(1)) => Some("y".to_owned()),
+            _ => None,
+        };
+    }
+}
+
+fn described(table: &Table, column: &ColumnGuess) -> InspectedColumn {
+    let values = &column.values;
+    let has_numbers = values.numbers > 0;
+    let is_load = matches!(column.quantity, Some(Quantity::Force | Quantity::Torque | Quantity::Raw));
+    let noise = (is_load && values.numbers > 8).then(|| {
+        let numbers: Vec<f64> = table.rows().filter_map(|row| row.number(column.column).ok()).collect();
+        let count: Vec<f64> = (0..numbers.len()).map(|k| k as f64).collect();
+        estimate(&count, &numbers).sigma
+    });
+    let unit = column.unit.and_then(Unit::find).map(|unit| unit.name.to_owned());
+    InspectedColumn {
+        name: table.columns()[column.column].heading.clone(),
+        meaning: column.role.map(|role| role.name().to_owned()),
+        meaning_certainty: certainty(column.meaning.sureness),
+        meaning_why: column.meaning.why.clone(),
+        unit: unit.map(|unit| if column.is_turned { format!("-{unit}") } else { unit }),
+        unit_certainty: certainty(column.unit_basis.sureness),
+        unit_why: column.unit_basis.why.clone(),
+        least: has_numbers.then_some(values.least),
+        most: has_numbers.then_some(values.most),
+        noise,
+    }
+}

@@ -1,0 +1,250 @@
+//! Guesses: what the columns of a table may mean, by their names, units and values, each with its reason.
+//!
+//! `words` understands names, `summary` describes values, `units` guesses units, `kind` says what a table is of.
+
+mod kind;
+mod summary;
+mod units;
+mod words;
+
+pub use kind::TableKind;
+pub use summary::ColumnSummary;
+pub use words::Quantity;
+
+use super::column_map::{ColumnMap, is_channel, recognized};
+use super::role::{Role, si};
+use super::table::Table;
+use kind::{Named, kind, role_in};
+use words::meaning;
+
+/// How sure a guess is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Sureness {
+    /// The file says so.
+    Sure,
+    /// Name or values suggest it, and nothing contradicts.
+    Likely,
+    /// It must be answered.
+    Open,
+}
+
+/// How sure something is, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Basis {
+    /// How sure.
+    pub sureness: Sureness,
+    /// Why, in words.
+    pub why: String,
+}
+
+/// What a column may mean.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColumnGuess {
+    /// Its number, from 0.
+    pub column: usize,
+    /// What it is of, if the name or the values say it.
+    pub quantity: Option<Quantity>,
+    /// Its axis: x, y or z.
+    pub axis: Option<usize>,
+    /// What it means in a table of this kind.
+    pub role: Option<Role>,
+    /// Why, and how sure that is.
+    pub meaning: Basis,
+    /// Its unit.
+    pub unit: Option<&'static str>,
+    /// Whether a minus before the unit turns the sign.
+    pub is_turned: bool,
+    /// Why, and how sure that is.
+    pub unit_basis: Basis,
+    /// Whether the caller said what it means.
+    pub is_given: bool,
+    /// Whether the readers find the column by its name.
+    pub is_recognized: bool,
+    /// Whether they know the unit without a word.
+    pub is_unit_known: bool,
+    /// Whether the file or the caller says the unit: the name of the role alone does not.
+    pub is_unit_written: bool,
+    /// What its values are like.
+    pub values: ColumnSummary,
+}
+
+/// What a table may be of, and what its columns may mean.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableGuess {
+    /// What it is of.
+    pub kind: TableKind,
+    /// Each column, in order.
+    pub columns: Vec<ColumnGuess>,
+}
+
+impl TableGuess {
+    /// The column that means this.
+    pub fn of(&self, role: Role) -> Option<&ColumnGuess> {
+        self.columns.iter().find(|column| column.role == Some(role))
+    }
+}
+
+/// What a table may be of, and what its columns may mean. `named` says whether the file names its columns, `map` what is known of
+/// them.
+///
+/// ```
+/// use rod_hw::recording::{ColumnMap, Role, Sureness, Table, TableKind, TableOptions, guess};
+/// let text = "Zeit (ms);Kraft X;pos_x\n0;0,1;80\n2;0,2;79,9\n4;0,3;79,8\n";
+/// let table = Table::parse("scan.csv", text.as_bytes(), &TableOptions::default())?;
+/// let found = guess(&table, true, &ColumnMap::new());
+/// assert_eq!(found.kind, TableKind::Reactions);
+/// assert_eq!((found.columns[1].role, found.columns[1].unit), (Some(Role::F0x), None)); // N or mN?
+/// assert_eq!((found.columns[2].role, found.columns[2].unit), (Some(Role::X0), Some("mm")));
+/// assert_eq!(found.columns[2].unit_basis.sureness, Sureness::Likely);
+/// # Ok::<(), rod_hw::recording::TableError>(())
+/// ```
+pub fn guess(table: &Table, named: bool, map: &ColumnMap) -> TableGuess {
+    let summaries: Vec<ColumnSummary> =
+        (0..table.columns().len()).map(|column| ColumnSummary::of(table, column)).collect();
+    let mut named = if named { by_names(table) } else { kind::by_order(&summaries) };
+    for (named, heading) in named.iter_mut().zip(table.columns()) {
+        if let Some((role, _)) = map.assigned().find(|(_, name)| heading.is(name)) {
+            let basis = Basis { sureness: Sureness::Sure, why: "it was given".to_owned() };
+            *named = Named {
+                quantity: quantity_of(role),
+                axis: None,
+                role: Some(role),
+                basis,
+                unit_in_name: named.unit_in_name,
+                is_given: true,
+            };
+        } else {
+            named.role = named.role.filter(|role| map.assigned().all(|(assigned, _)| assigned != *role));
+        }
+    }
+    let kind = kind(&named);
+    let mut taken: Vec<Role> = map.assigned().map(|(role, _)| role).collect();
+    let columns = named.into_iter().zip(summaries).enumerate().map(|(column, (named, values))| {
+        let role = named.role.or_else(|| role_in(kind, &named)).filter(|role| named.is_given || !taken.contains(role));
+        taken.extend(role);
+        column_guess(table, column, named, role, values)
+    });
+    TableGuess { kind, columns: columns.collect() }
+}
+
+fn by_names(table: &Table) -> Vec<Named> {
+    let of = |column: &super::heading::Column| {
+        let words = meaning(&column.name);
+        let sure = |role: Role| Named {
+            quantity: words.map(|words| words.quantity).or_else(|| quantity_of(role)),
+            axis: words.and_then(|words| words.axis),
+            role: Some(role),
+            basis: Basis { sureness: Sureness::Sure, why: format!("the name `{}`", column.name) },
+            unit_in_name: None,
+            is_given: false,
+        };
+        // a wrench beside poses is that of the clamp, and not looked for under these names
+        if let Some((role, _)) = recognized(column).filter(|(role, _)| !kind::is_wrench(*role)) {
+            return sure(role);
+        }
+        if is_channel(&column.name) {
+            let basis = Basis { sureness: Sureness::Sure, why: format!("the name `{}`", column.name) };
+            return Named {
+                quantity: Some(Quantity::Raw),
+                axis: None,
+                role: None,
+                basis,
+                unit_in_name: None,
+                is_given: false,
+            };
+        }
+        let why = match words {
+            Some(_) => format!("the words of `{}`", column.name),
+            None => String::new(),
+        };
+        let sureness = if words.is_some() { Sureness::Likely } else { Sureness::Open };
+        Named {
+            quantity: words.map(|words| words.quantity),
+            axis: words.and_then(|words| words.axis),
+            role: None,
+            basis: Basis { sureness, why },
+            unit_in_name: words.and_then(|words| words.unit),
+            is_given: false,
+        }
+    };
+    table.columns().iter().map(of).collect()
+}
+
+/// What a role is of.
+fn quantity_of(role: Role) -> Option<Quantity> {
+    use crate::sample::Dimension;
+    if role.is_spread() {
+        return Some(Quantity::Spread);
+    }
+    Some(match role.dimension() {
+        Some(Dimension::Force) => Quantity::Force,
+        Some(Dimension::Torque) => Quantity::Torque,
+        Some(Dimension::Length) => Quantity::Position,
+        Some(Dimension::Angle) => Quantity::Angle,
+        Some(Dimension::Time) => Quantity::Time,
+        _ => Quantity::Other,
+    })
+}
+
+fn column_guess(table: &Table, column: usize, named: Named, role: Option<Role>, values: ColumnSummary) -> ColumnGuess {
+    let heading = &table.columns()[column];
+    let found = recognized(heading).filter(|(found, _)| Some(*found) == role);
+    let is_own = role.is_some_and(|role| heading.name == role.name());
+    let quantity = named.quantity.filter(|_| role.is_none_or(|role| !role.is_spread()));
+    let written = heading.unit.as_deref().or(found.and_then(|found| found.1));
+    let is_turned = written.is_some_and(|unit| unit.starts_with('-'));
+    let written = written.map(|unit| unit.trim_start_matches('-'));
+    let (unit, unit_basis, is_unit_known) = match (quantity, written) {
+        (Some(quantity), Some(text)) if quantity.dimension().is_some() => match units::of_spelling(quantity, text) {
+            Some((unit, basis)) => (Some(unit), basis.clone(), basis.sureness == Sureness::Sure),
+            None => {
+                let why = format!(
+                    "`{text}` is no unit of {}",
+                    quantity.dimension().map_or_else(String::new, |d| d.to_string())
+                );
+                (None, Basis { sureness: Sureness::Open, why }, false)
+            }
+        },
+        (Some(quantity), _) if quantity.dimension().is_some() => match named.unit_in_name {
+            Some(unit) if units::of_spelling(quantity, unit).is_some() => {
+                (Some(unit), Basis { sureness: Sureness::Sure, why: "it ends the name".to_owned() }, false)
+            }
+            _ => {
+                let guess = units::of_values(quantity, &values);
+                let own = quantity.dimension().map(si);
+                match (is_own, guess.unit) {
+                    // the name stands for SI, unless the values contradict
+                    (true, None) => {
+                        let why = format!("the name `{}` stands for it", heading.name);
+                        (own, Basis { sureness: Sureness::Sure, why }, true)
+                    }
+                    (true, Some(unit)) if Some(unit) == own => {
+                        let why = format!("the name `{}` stands for it", heading.name);
+                        (own, Basis { sureness: Sureness::Sure, why }, true)
+                    }
+                    _ => (guess.unit, guess.basis, false),
+                }
+            }
+        },
+        _ => (None, Basis { sureness: Sureness::Sure, why: String::new() }, true),
+    };
+    ColumnGuess {
+        column,
+        quantity: named.quantity,
+        axis: named.axis,
+        role,
+        meaning: if found.is_some() && !named.is_given {
+            Basis { sureness: Sureness::Sure, why: format!("the name `{}`", heading.name) }
+        } else {
+            named.basis
+        },
+        unit,
+        is_turned,
+        unit_basis,
+        is_given: named.is_given,
+        is_recognized: found.is_some(),
+        is_unit_known,
+        is_unit_written: written.is_some() || named.unit_in_name.is_some(),
+        values,
+    }
+}

@@ -1,0 +1,87 @@
+//! The unit of a column, as its name says it or its values suggest it.
+
+use super::summary::ColumnSummary;
+use super::words::Quantity;
+use super::{Basis, Sureness};
+use crate::sample::Unit;
+use std::f64::consts::TAU;
+
+/// Range of a position, m, beyond which it is taken for millimetres: no rod here is dragged over 2 m.
+const FARTHEST: f64 = 2.0;
+/// Step of a time, s, from which on it is taken for another unit: slower scans than two samples a second are rare.
+const SLOWEST: f64 = 0.5;
+/// A time in seconds since 1970; in milliseconds, microseconds and nanoseconds it is a thousand times as much each.
+const EPOCH: f64 = 1e9;
+
+/// A unit with its reason.
+pub(super) struct UnitGuess {
+    pub unit: Option<&'static str>,
+    pub basis: Basis,
+}
+
+/// The unit that values without a written unit suggest; none where they tell nothing.
+pub(super) fn of_values(quantity: Quantity, values: &ColumnSummary) -> UnitGuess {
+    let likely = |unit, why: String| UnitGuess { unit: Some(unit), basis: Basis { sureness: Sureness::Likely, why } };
+    let open = |why: &str| UnitGuess { unit: None, basis: Basis { sureness: Sureness::Open, why: why.to_owned() } };
+    let (least, most, size) = (values.least, values.most, values.size());
+    match quantity {
+        Quantity::Angle if size > TAU => likely("deg", format!("values up to {size:.4} exceed a turn in radians")),
+        Quantity::Angle if size == 0.0 => likely("rad", "0 in every unit".to_owned()),
+        Quantity::Angle
+            if values.is_constant()
+                && size > 0.0
+                && (size.to_degrees() % 15.0).min(15.0 - size.to_degrees() % 15.0) < 0.01 =>
+        {
+            likely("rad", format!("{size:.4} rad is {:.0} degrees", size.to_degrees()))
+        }
+        Quantity::Angle => open("values within a turn of radians fit radians and degrees"),
+        Quantity::Position if size == 0.0 => likely("m", "0 in every unit".to_owned()),
+        Quantity::Position if values.range() > FARTHEST || size > 10.0 => {
+            likely("mm", format!("values from {least:.4} to {most:.4} are too far for metres"))
+        }
+        Quantity::Position if values.range() > 0.5 => open("values fit m and mm"),
+        Quantity::Position => likely("m", format!("values from {least:.4} to {most:.4} are too close for millimetres")),
+        Quantity::Time if size > EPOCH => {
+            let power = ((size / EPOCH).log10() / 3.0).floor().clamp(0.0, 3.0);
+            let unit = if power < 0.5 {
+                "s"
+            } else if power < 1.5 {
+                "ms"
+            } else if power < 2.5 {
+                "us"
+            } else {
+                "ns"
+            };
+            likely(unit, "values count from 1970".to_owned())
+        }
+        Quantity::Time if values.step > 0.0 && values.step < SLOWEST => {
+            likely("s", format!("steps of {:.4} give {:.4} samples a second", values.step, 1.0 / values.step))
+        }
+        Quantity::Time if values.step >= SLOWEST && values.step < 500.0 => {
+            likely("ms", format!("steps of {:.4} give {:.4} samples a second", values.step, 1e3 / values.step))
+        }
+        Quantity::Time if values.step >= 500.0 && values.step < 5e5 => {
+            likely("us", format!("steps of {:.4} give {:.4} samples a second", values.step, 1e6 / values.step))
+        }
+        Quantity::Time => open("the steps fit no usual rate"),
+        Quantity::Force => open("values do not tell N from mN or counts"),
+        Quantity::Torque => open("values do not tell N m from N mm or counts"),
+        _ => UnitGuess { unit: None, basis: Basis { sureness: Sureness::Sure, why: String::new() } },
+    }
+}
+
+/// The unit of this spelling, also where only its capitals are wrong.
+pub(super) fn of_spelling(quantity: Quantity, text: &str) -> Option<(&'static str, Basis)> {
+    let dimension = quantity.dimension()?;
+    if let Ok(unit) = Unit::parse(text, dimension) {
+        return Some((unit.name, Basis { sureness: Sureness::Sure, why: format!("[{text}] is written there") }));
+    }
+    let lower = text.to_lowercase();
+    // MN and mN differ by nine orders of magnitude, Deg and deg by nothing
+    let unit =
+        Unit::parse(&lower, dimension).ok().filter(|_| quantity == Quantity::Angle || quantity == Quantity::Time)?;
+    Some((
+        unit.name,
+        Basis { sureness: Sureness::Likely, why: format!("[{text}] is {} but for its capitals", unit.name) },
+    ))
+}
