@@ -1,0 +1,109 @@
+// The page in a browser: that it starts from a folder, follows mouse and keys, and fits into a narrow window. Runs after `build`.
+//   PLAYGROUND_CHROMIUM   the command of a Chromium; without it nothing is tested here
+//   PLAYGROUND_PICTURES   a folder for screenshots
+import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { open } from './chromium.mjs';
+
+const { PLAYGROUND_CHROMIUM: chromium, PLAYGROUND_PICTURES: pictures } = process.env;
+const address = new URL('../../site/playground/index.html', import.meta.url).href;
+const skip = !chromium;
+/// Keeps how long each frame's script takes, ms.
+const TIMED = `globalThis.frames_ms = [];
+    const request = requestAnimationFrame;
+    globalThis.requestAnimationFrame = call => request(now => {
+        const start = performance.now();
+        call(now);
+        frames_ms.push(performance.now() - start);
+    });`;
+const seconds = count => new Promise(resolve => setTimeout(resolve, 1000 * count));
+const text = (page, name) => page.evaluate(`document.getElementById('${name}').textContent`);
+
+async function started(options) {
+    const page = await open(chromium, address, { before: TIMED, ...options });
+    for (let tries = 0; await text(page, 'phase').catch(() => '') !== 'free' || await text(page, 'xy') === ''; tries++) {
+        assert.ok(tries < 100, `the page does not start: ${page.errors} ${await text(page, 'message')}`);
+        await seconds(0.1);
+    }
+    return page;
+}
+
+async function picture(page, name) {
+    if (pictures) writeFileSync(`${pictures}/${name}.png`, await page.screenshot());
+}
+
+async function drag(page, path) {
+    const box = await page.evaluate(`(({ x, y, width, height }) => ({ x, y, width, height }))(document.getElementById('view').getBoundingClientRect())`);
+    const at = ([x, y]) => ({ x: box.x + x * box.width, y: box.y + y * box.height, button: 'left', clickCount: 1 });
+    await page.send('Input.dispatchMouseEvent', { type: 'mousePressed', ...at(path[0]) });
+    for (const point of path.slice(1)) {
+        await page.send('Input.dispatchMouseEvent', { type: 'mouseMoved', ...at(point), buttons: 1 });
+        await seconds(0.02);
+    }
+    await page.send('Input.dispatchMouseEvent', { type: 'mouseReleased', ...at(path.at(-1)) });
+}
+
+for (const [name, options] of Object.entries({ wide: { width: 1200, height: 900 }, narrow: { width: 360, height: 740 }, dark: { width: 1200, height: 900, dark: true } })) {
+    test(`the scan of the paper, ${name}`, { skip, timeout: 120e3 }, async () => {
+        const page = await started(options);
+        await picture(page, `${name}-start`);
+        await page.evaluate(`document.getElementById('record').click(); document.getElementById('scan').click()`);
+        const phases = [];
+        for (let tries = 0; tries < 1000; tries++) {
+            const phase = await text(page, 'phase');
+            if (phases.at(-1) !== phase) {
+                phases.push(phase);
+                await picture(page, `${name}-${phases.length}-${phase}`);
+            }
+            if (Number((await text(page, 'xy')).split(',')[0]) <= -99.9) break;
+            await seconds(0.03);
+        }
+        // a short phase may pass between two looks
+        assert.match(phases.join(' '), /^free A B (BB )?(BA )?B (A )?free$/);
+        const ms = (await page.evaluate('frames_ms')).sort((a, b) => a - b);
+        const share = part => ms[Math.floor(part * (ms.length - 1))].toFixed(2);
+        console.log(`script of a frame, ${name}: median ${share(0.5)} ms, 99 % ${share(0.99)} ms, most ${share(1)} ms of ${ms.length}`);
+        await picture(page, `${name}-end`);
+        assert.ok(await page.evaluate('document.documentElement.scrollWidth <= innerWidth'), 'it scrolls sideways');
+        assert.deepEqual(page.errors, []);
+        await page.close();
+    });
+}
+
+test('mouse, keys, sliders and objects', { skip, timeout: 120e3 }, async () => {
+    const page = await started({ width: 1000, height: 800 });
+    const place = async () => (await text(page, 'xy')).split(',').map(Number);
+    const [x] = await place();
+    await drag(page, Array.from({ length: 20 }, (_, k) => [0.8 - 0.015 * k, 0.7]));
+    await seconds(0.3);
+    assert.ok((await place())[0] < x - 40, 'the mouse drags the clamp');
+    assert.notEqual(await text(page, 'phase'), 'free');
+    await picture(page, 'dragged');
+    const key = (type, name, modifiers = 0) => page.send('Input.dispatchKeyEvent', { type, key: name, code: name, modifiers });
+    const before = await place(), angle = Number(await text(page, 'phi'));
+    await key('keyDown', 'ArrowLeft');
+    await seconds(0.3);
+    await key('keyUp', 'ArrowLeft');
+    await key('keyDown', 'ArrowRight', 8);
+    await seconds(0.2);
+    await key('keyUp', 'ArrowRight', 8);
+    await seconds(0.2);
+    assert.ok((await place())[0] < before[0] - 5, 'arrows move');
+    assert.ok(Number(await text(page, 'phi')) < angle - 5, 'shift and arrow turn');
+    const slide = (name, value) => page.evaluate(`(slider => { slider.value = ${value}; slider.dispatchEvent(new Event('input')); })(document.getElementById('${name}'))`);
+    for (const [name, value] of [['taper', 0.3], ['friction', 0.3], ['curvature', 4], ['length', 120], ['diameter', 0.3]]) await slide(name, value);
+    for (const object of ['disc', 'pegs', 'square', 'comb']) {
+        await page.evaluate(`(chooser => { chooser.value = '${object}'; chooser.dispatchEvent(new Event('change')); })(document.getElementById('object'))`);
+        await page.evaluate(`document.getElementById('scan').click()`);
+        await seconds(2.5);
+        await picture(page, object);
+        const ms = (await page.evaluate('frames_ms.splice(0)')).sort((a, b) => a - b);
+        console.log(`${object}: 99 % ${ms[Math.floor(0.99 * (ms.length - 1))].toFixed(2)} ms, ${await text(page, 'phase')} ${await text(page, 'message')}`);
+    }
+    await seconds(1);
+    const hash = await page.evaluate('location.hash');
+    assert.ok(hash.length > 100, 'the address has the state');
+    assert.deepEqual(page.errors, []);
+    await page.close();
+});
