@@ -46,7 +46,7 @@ export async function open(command, address, { width, height, dark = false, befo
     };
     const close = async () => {
         const ended = new Promise(resolve => child.once('exit', resolve));
-        await call('Browser.close').catch(() => child.kill());
+        child.kill();
         await ended;
         rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
     };

@@ -41,7 +41,7 @@
             pen.clearRect(0, 0, this.#width, this.#height);
             pen.font = '11px system-ui, sans-serif';
             LANES.forEach(([name, unit, factor, dash], lane) => {
-                const top = lane * tall + 4, bottom = (lane + 1) * tall - 4;
+                const head = lane * tall + 12, top = head + 5, bottom = (lane + 1) * tall - 4;
                 const values = this.#rows.map(row => row[lane + 1] * factor);
                 const most = Math.max(1e-3, ...values, 0), least = Math.min(0, ...values);
                 const [high, low] = [most, least === 0 && most === 1e-3 ? 0 : least];
@@ -63,10 +63,10 @@
                 });
                 pen.stroke();
                 pen.fillStyle = this.#colour('text');
-                pen.fillText(`${name}, ${unit}`, 2, top + 9);
+                pen.fillText(`${name}, ${unit}`, 2, head);
                 pen.fillStyle = this.#colour('faint');
                 const range = `${low.toFixed(Math.abs(low) < 10 ? 1 : 0)} to ${high.toFixed(high < 10 ? 1 : 0)}`;
-                pen.fillText(range, this.#width - pen.measureText(range).width - 2, top + 9);
+                pen.fillText(range, this.#width - pen.measureText(range).width - 2, head);
             });
             pen.setLineDash([]);
         }

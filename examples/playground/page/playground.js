@@ -16,8 +16,8 @@
     /// The address follows after so much rest, ms.
     const REST = 700;
     const CONTACTS = { tangent: '● side (B)', tip: '▲ tip (A)', corner: '◆ corner', notch: '■ notch' };
-    const KINDS = { 'first-contact': 'first contact', touch: 'one more contact', release: 'a contact lets go', piece: 'over to the next piece',
-        'tip-to-tangent': 'the tip lies down', 'tangent-to-tip': 'the contact reaches the tip', 'slip-over': 'the tip slips over a corner',
+    const KINDS = { 'first-contact': 'first contact', touch: 'touches again', release: 'one lets go', piece: 'next piece',
+        'tip-to-tangent': 'tip lies down', 'tangent-to-tip': 'contact at tip', 'slip-over': 'slips over corner',
         stick: 'sticks', slip: 'slips', snap: 'snaps', 'snap-off': 'snaps off' };
     // where the system asks for less motion, a jump leaves no fading shape
     const calm = matchMedia('(prefers-reduced-motion: reduce)');

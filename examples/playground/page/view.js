@@ -86,7 +86,7 @@
             this.#fade(now);
             this.#whisker(state.shape, diameters);
             this.#clamp(state.pose);
-            for (const contact of state.contacts) this.#contact(contact, unit);
+            state.contacts.forEach((contact, index) => this.#contact(contact, index, unit));
             this.#ruler();
         }
 
@@ -225,7 +225,7 @@
             pen.stroke();
         }
 
-        #contact({ kind, x, y, alpha, force, friction }, unit) {
+        #contact({ kind, x, y, alpha, force, friction }, index, unit) {
             const pen = this.#pen, [px, py] = this.toPixels([x, y]);
             const [fx, fy] = [force * Math.sin(alpha) + friction * Math.cos(alpha), friction * Math.sin(alpha) - force * Math.cos(alpha)];
             const size = Math.hypot(fx, fy);
@@ -241,9 +241,9 @@
                 pen.beginPath();
                 polygon(pen, [[ex, ey], [ex - 9 * ux + 5 * uy, ey - 9 * uy - 5 * ux], [ex - 9 * ux - 5 * uy, ey - 9 * uy + 5 * ux]]);
                 pen.fill();
-                // beside the head of the arrow, inside the canvas
-                const label = globalThis.playground.inUnits(size);
-                this.#text(label, Math.min(Math.max(4, ex + 8 * ux + (ux < 0 ? -52 : 4)), this.#width - 60), ey + 4 + 10 * uy);
+                // beside the head of the arrow, inside the canvas, each a line further from the head than the one before
+                const beside = Math.min(Math.max(4, ex + 8 * ux + (ux < 0 ? -52 : 6)), this.#width - 60);
+                this.#text(globalThis.playground.inUnits(size), beside, ey + 4 + (10 + 15 * index) * (uy < 0 ? -1 : 1));
             }
             mark(pen, kind, px, py, 5.5);
             pen.fill();
