@@ -108,3 +108,57 @@ test('mouse, keys, sliders and objects', { skip, timeout: 120e3 }, async t => {
     assert.ok(hash.length > 100, 'the address has the state');
     assert.deepEqual(page.errors, []);
 });
+
+test('a finger drags the clamp', { skip, timeout: 120e3 }, async t => {
+    const page = await started(t, { width: 360, height: 740 });
+    await page.evaluate(`document.getElementById('hide-object').click()`);
+    const box = await page.evaluate(`(({ x, y, width, height }) => ({ x, y, width, height }))(document.getElementById('view').getBoundingClientRect())`);
+    const touch = (type, ...at) => page.send('Input.dispatchTouchEvent',
+        { type, touchPoints: at.map(([x, y]) => ({ x: box.x + x * box.width, y: box.y + y * box.height })) });
+    await touch('touchStart', [0.9, 0.9]);
+    for (let k = 0; k <= 120; k++) {
+        await touch('touchMove', [0.9 - 0.005 * k, 0.9]);
+        await seconds(0.02);
+    }
+    await touch('touchEnd');
+    await seconds(0.3);
+    await picture(page, 'touched');
+    assert.ok(Number((await text(page, 'xy')).split(',')[0]) < -20, await text(page, 'xy'));
+    assert.deepEqual(page.errors, []);
+});
+
+test('a handle changes the object, a link and a file bring it back', { skip, timeout: 120e3 }, async t => {
+    const page = await started(t, { width: 1000, height: 800 });
+    await page.evaluate(`(chooser => { chooser.value = 'disc'; chooser.dispatchEvent(new Event('change')); })(document.getElementById('object'))`);
+    await page.evaluate(`document.getElementById('edit-object').click()`);
+    // the centre of the disc, at (0, 20) mm, to the right and downwards
+    const middle = 0.5 - 0.035 / 0.256 * 4 / 3;
+    await drag(page, Array.from({ length: 11 }, (_, k) => [0.5 + 0.01 * k, middle + 0.01 * k]));
+    await seconds(1);
+    await picture(page, 'edited');
+    const state = `JSON.parse(playground.fromHash(location.hash.slice(1))).shapes[0].center`;
+    const [x, y] = await page.evaluate(state);
+    assert.ok(Math.abs(x - 0.0256) < 2e-3 && y < 0.01, `the centre is at ${x}, ${y}`);
+    // what the page saves, it loads
+    await page.evaluate(`globalThis.saved = []; URL.createObjectURL = blob => (saved.push(blob), 'about:blank#');
+        HTMLAnchorElement.prototype.click = () => {}; document.getElementById('save').click()`);
+    const toml = await page.evaluate('saved[0].text()');
+    assert.match(toml, /shape = "arc"/);
+    await page.evaluate(`document.getElementById('object').value = 'comb'; document.getElementById('object').dispatchEvent(new Event('change'))`);
+    await page.evaluate(`(files => {
+        files.items.add(new File([saved[0]], 'scene.toml'));
+        document.getElementById('file').files = files.files;
+        document.getElementById('file').dispatchEvent(new Event('change'));
+    })(new DataTransfer())`);
+    await seconds(1.2);
+    assert.equal(await page.evaluate(`document.getElementById('object').value`), 'disc');
+    assert.deepEqual(await page.evaluate(state), [x, y].map(value => Number(value.toPrecision(10))));
+    // a link of another scene, and one of nothing
+    await page.evaluate(`location.hash = playground.toHash(playground.toText({ ...playground.preset('square'), rod: playground.WIRE }, [0.07, -0.06, 1.5]))`);
+    await seconds(0.5);
+    assert.equal(await text(page, 'xy'), '70.0, -60.0');
+    await page.evaluate(`location.hash = 'nothing'`);
+    await seconds(0.3);
+    assert.equal(await text(page, 'xy'), '70.0, -60.0');
+    assert.deepEqual(page.errors, []);
+});

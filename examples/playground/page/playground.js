@@ -13,6 +13,8 @@
     /// Points of the trail, and their least distance, m: nearer ones cover each other.
     const MOST_POINTS = 4000, POINTS_APART = 0.3e-3;
     const EVENTS = 6;
+    /// After a move that was refused, the page rests for so many times as long as the refusal took, so that it stays responsive.
+    const RESPITE = 4;
     /// The address follows after so much rest, ms.
     const REST = 700;
     const CONTACTS = { tangent: '● side (B)', tip: '▲ tip (A)', corner: '◆ corner', notch: '■ notch' };
@@ -28,7 +30,7 @@
     let rod = new Rod(module), spare = new Rod(module);
     let scene, state, outlines, wish, last;
     let trail = [], events = [], recording, isRecording = false, scanning = false;
-    let refused, isDirty = true, movedAt = 0, nextEdit;
+    let refused, respite = 0, isDirty = true, movedAt = 0, nextEdit;
 
     async function compiled(base64) {
         const packed = Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
@@ -75,8 +77,8 @@
     const same = (one, other) => one?.every((value, index) => value === other[index]);
 
     function move(now) {
-        if (same(state.pose, wish) || same(refused, wish)) return;
-        const before = state;
+        if (same(state.pose, wish) || same(refused, wish) || now < respite) return;
+        const before = state, start = performance.now();
         try {
             state = rod.moveTo(nextPose());
             refused = undefined;
@@ -84,6 +86,7 @@
         } catch (error) {
             // not asked again until the wish changes
             refused = [...wish];
+            respite = now + (1 + RESPITE) * (performance.now() - start);
             scanning = false;
             say(`The whisker stays: ${reason(error)}.`);
             return;

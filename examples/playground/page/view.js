@@ -15,6 +15,9 @@
         notch: (pen, x, y, r) => pen.rect(x - r, y - r, 2 * r, 2 * r),
     };
 
+    /// The same marks in text.
+    const SIGNS = { tangent: '●', tip: '▲', corner: '◆', notch: '■' };
+
     function polygon(pen, points) {
         points.forEach(([x, y], index) => index ? pen.lineTo(x, y) : pen.moveTo(x, y));
         pen.closePath();
@@ -33,6 +36,8 @@
         #height;
         #colour;
         #ghost;
+        /// Where the labels of this frame are.
+        #labels = [];
 
         constructor(canvas) {
             this.#canvas = canvas;
@@ -86,7 +91,8 @@
             this.#fade(now);
             this.#whisker(state.shape, diameters);
             this.#clamp(state.pose);
-            state.contacts.forEach((contact, index) => this.#contact(contact, index, unit));
+            this.#labels = [];
+            for (const contact of state.contacts) this.#contact(contact, unit);
             this.#ruler();
         }
 
@@ -130,6 +136,15 @@
         #text(text, x, y) {
             this.#pen.font = '12px system-ui, sans-serif';
             this.#pen.fillText(text, x, y);
+        }
+
+        /// A label inside the canvas, further down where another one is in its way.
+        #label(text, x, y) {
+            const left = Math.min(Math.max(4, x), this.#width - 76);
+            let line = Math.min(Math.max(14, y), this.#height - 24);
+            while (this.#labels.some(([ax, ay]) => Math.abs(ax - left) < 76 && Math.abs(ay - line) < 14)) line += 14;
+            this.#labels.push([left, line]);
+            this.#text(text, left, line);
         }
 
         #object(outline) {
@@ -225,7 +240,7 @@
             pen.stroke();
         }
 
-        #contact({ kind, x, y, alpha, force, friction }, index, unit) {
+        #contact({ kind, x, y, alpha, force, friction }, unit) {
             const pen = this.#pen, [px, py] = this.toPixels([x, y]);
             const [fx, fy] = [force * Math.sin(alpha) + friction * Math.cos(alpha), friction * Math.sin(alpha) - force * Math.cos(alpha)];
             const size = Math.hypot(fx, fy);
@@ -241,9 +256,7 @@
                 pen.beginPath();
                 polygon(pen, [[ex, ey], [ex - 9 * ux + 5 * uy, ey - 9 * uy - 5 * ux], [ex - 9 * ux - 5 * uy, ey - 9 * uy + 5 * ux]]);
                 pen.fill();
-                // beside the head of the arrow, inside the canvas, each a line further from the head than the one before
-                const beside = Math.min(Math.max(4, ex + 8 * ux + (ux < 0 ? -52 : 6)), this.#width - 60);
-                this.#text(globalThis.playground.inUnits(size), beside, ey + 4 + (10 + 15 * index) * (uy < 0 ? -1 : 1));
+                this.#label(`${SIGNS[kind] ?? ''} ${globalThis.playground.inUnits(size)}`, ex + 8 * ux + (ux < 0 ? -66 : 6), ey + 4 + 10 * uy);
             }
             mark(pen, kind, px, py, 5.5);
             pen.fill();

@@ -8,9 +8,9 @@ use vibrissa::{Follower, Pose};
 
 pub type Failure = Box<dyn std::error::Error>;
 
-/// Steps of a move after which it is given up. A move of a frame takes some tens, a snap some hundreds; 20,000 hold the page up for
-/// about a second.
-const MOST_STEPS: u64 = 20_000;
+/// Steps of a move after which it is given up. A move of a frame takes some tens, a snap some hundreds. More would hold the page up
+/// for longer than half a second.
+const MOST_STEPS: u64 = 10_000;
 
 #[derive(Default)]
 pub struct Page {
