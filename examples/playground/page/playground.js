@@ -1,6 +1,6 @@
 // The page: each frame moves the clamp a little towards where it is wished, and shows the answer.
 (async () => {
-    const { MODULE, Rod, Recording, View, Chart, Input, OBJECTS, WIRE, inUnits } = globalThis.playground;
+    const { MODULE, Rod, Recording, View, Chart, Input, Panel, OBJECTS, WIRE } = globalThis.playground;
     const { preset, stiffness, toText, fromText, toHash, fromHash, toToml, fromToml } = globalThis.playground;
     const id = name => document.getElementById(name);
 
@@ -12,19 +12,16 @@
     const SCAN_SPEED = 0.035, SCAN_END = -0.1;
     /// Points of the trail, and their least distance, m: nearer ones cover each other.
     const MOST_POINTS = 4000, POINTS_APART = 0.3e-3;
-    const EVENTS = 6;
+    const EVENTS = 8;
     /// After a move that was refused, the page rests for so many times as long as the refusal took, so that it stays responsive.
     const RESPITE = 4;
     /// The address follows after so much rest, ms.
     const REST = 700;
-    const CONTACTS = { tangent: '● side (B)', tip: '▲ tip (A)', corner: '◆ corner', notch: '■ notch' };
-    const KINDS = { 'first-contact': 'first contact', touch: 'touches again', release: 'one lets go', piece: 'next piece',
-        'tip-to-tangent': 'tip lies down', 'tangent-to-tip': 'contact at tip', 'slip-over': 'slips over corner',
-        stick: 'sticks', slip: 'slips', snap: 'snaps', 'snap-off': 'snaps off' };
     // where the system asks for less motion, a jump leaves no fading shape
     const calm = matchMedia('(prefers-reduced-motion: reduce)');
 
     const view = new View(id('view')), chart = new Chart(id('chart'));
+    const panel = new Panel((name, value) => edit({ ...scene, rod: { ...scene.rod, [name]: value } }));
     const module = await compiled(MODULE);
     // the whisker that is shown, and one to try another scene with
     let rod = new Rod(module), spare = new Rod(module);
@@ -40,7 +37,6 @@
 
     /// The reason alone: what else a stop says is for sweeps of the command.
     const reason = error => error.message.replace(/^the sweep stopped at .*? rad: /, '').replace(/;.*/, '');
-    const say = text => { if (id('message').textContent !== text) id('message').textContent = text; };
 
     /// Another scene with the clamp at `pose`, or where it begins if the rod finds no place there. The scene stays as it was if neither does.
     function build(wanted, pose) {
@@ -50,14 +46,15 @@
                 ({ outlines, state } = spare.build(wanted, start));
                 [rod, spare] = [spare, rod];
                 [scene, wish, refused, scanning, isDirty] = [wanted, [...start], undefined, false, true];
-                say(failure);
-                showEverything();
+                panel.say(failure);
+                panel.scene(scene);
+                panel.state(state);
                 return true;
             } catch (error) {
                 failure ||= reason(error);
             }
         }
-        say(`Not possible: ${failure}.`);
+        panel.say(`Not possible: ${failure}.`);
         isDirty = true;
         return false;
     }
@@ -82,13 +79,13 @@
         try {
             state = rod.moveTo(nextPose());
             refused = undefined;
-            say('');
+            panel.say('');
         } catch (error) {
             // not asked again until the wish changes
             refused = [...wish];
             respite = now + (1 + RESPITE) * (performance.now() - start);
             scanning = false;
-            say(`The whisker stays: ${reason(error)}.`);
+            panel.say(`The whisker stays: ${reason(error)}.`);
             return;
         }
         [isDirty, movedAt] = [true, now];
@@ -97,11 +94,28 @@
             if (event.kind.startsWith('snap') && !calm.matches) view.jumped(before.shape, now);
         }
         events.length = Math.min(events.length, EVENTS);
-        if (state.events.length > 0) showEvents();
+        if (state.events.length > 0) panel.events(events);
         follow();
         due();
-        if (isRecording) recording.add((now - recording.since) / 1e3, state);
-        showState();
+        if (isRecording) record();
+        panel.state(state);
+    }
+
+    function startRecording() {
+        [recording, isRecording] = [new Recording(), true];
+        Object.assign(recording, { since: performance.now(), scene });
+        record();
+    }
+
+    function stopRecording() {
+        isRecording = false;
+        panel.recording(recording.rows.length, isRecording);
+    }
+
+    /// Not by the time of the frame, which began before a click in it.
+    function record() {
+        recording.add((performance.now() - recording.since) / 1e3, state);
+        panel.recording(recording.rows.length, isRecording);
     }
 
     /// The point that the reactions of this state give.
@@ -111,65 +125,6 @@
         const single = contacts.length === 1;
         trail.push({ ...recovered, kind: single ? contacts[0].kind : 'several', single });
         if (trail.length > MOST_POINTS) trail.shift();
-    }
-
-    function phaseText({ phase }) {
-        if (phase === 'free') return 'no contact';
-        const sides = phase.length - (phase.endsWith('A') ? 1 : 0);
-        const side = sides === 0 ? '' : sides === 1 ? 'one contact along the side' : `${sides} contacts along the side`;
-        return [side, phase.endsWith('A') ? 'the tip touches' : ''].filter(Boolean).join(', ');
-    }
-
-    const put = (element, text) => { if (element.textContent !== text) element.textContent = text; };
-
-    function showState() {
-        const [x, y, phi] = state.pose, [f0x, f0y, m0z] = state.reactions;
-        const milli = value => (value * 1e3).toFixed(2).replace(/^-(0\.0+)$/, '$1');
-        put(id('f0x'), milli(f0x));
-        put(id('f0y'), milli(f0y));
-        put(id('m0z'), milli(m0z));
-        put(id('xy'), `${(x * 1e3).toFixed(1)}, ${(y * 1e3).toFixed(1)}`);
-        put(id('phi'), (phi * 180 / Math.PI).toFixed(1));
-        put(id('phase'), state.phase);
-        put(id('phase-text'), phaseText(state));
-        put(id('spoken'), `Phase ${state.phase}: ${phaseText(state)}`);
-        id('contacts').replaceChildren(...state.contacts.map(contact => {
-            const item = document.createElement('li');
-            const mode = { 'slip+': ', slips', 'slip-': ', slips', stick: ', sticks' }[contact.mode] ?? '';
-            item.textContent = `${CONTACTS[contact.kind] ?? contact.kind}: ${inUnits(contact.force)} at ${(contact.s * 1e3).toFixed(1)} mm${mode}`;
-            return item;
-        }));
-        if (isRecording || recording) put(id('recorded'), `${recording.rows.length} samples`);
-    }
-
-    function showEvents() {
-        id('events').replaceChildren(...events.map(({ kind, from, to, pose }) => {
-            const item = document.createElement('li'), where = document.createElement('small');
-            item.textContent = `${KINDS[kind] ?? kind}: ${from} → ${to} `;
-            where.textContent = `x ${(pose[0] * 1e3).toFixed(1)} mm`;
-            item.append(where);
-            return item;
-        }));
-    }
-
-    // A slider: its value in SI units from what it shows, and its label.
-    const SLIDERS = {
-        length: [1e-3, value => `${value} mm`],
-        diameter: [1e-3, value => `${value.toFixed(2)} mm, EI ${(stiffness(scene.rod) * 1e6).toPrecision(3)} N mm²`],
-        taper: [1, value => value === 1 ? 'no taper' : value.toFixed(2)],
-        curvature: [1, value => value === 0 ? 'straight' : `${value} /m`],
-        friction: [1, value => value === 0 ? 'none' : value.toFixed(2)],
-    };
-
-    function showEverything() {
-        for (const [name, [unit, label]] of Object.entries(SLIDERS)) {
-            const value = Number((scene.rod[name] / unit).toPrecision(6));
-            id(name).value = value;
-            put(id(name).parentElement.querySelector('output'), label(value));
-            id(name).setAttribute('aria-valuetext', label(value));
-        }
-        id('object').value = scene.object;
-        showState();
     }
 
     // Handles of the shapes, and what moving them does.
@@ -290,16 +245,18 @@
 
     function restart() {
         events = [];
-        showEvents();
+        panel.events(events);
         chart.clear();
         clearTrail();
     }
 
-    /// A whisker that is another one is no longer that of the recording.
+    /// Another scene, or the same one with the clamp elsewhere. A recording is of one scene.
     function edit(changed, pose = state.pose) {
         const done = build(changed, pose);
         if (done) clearTrail();
-        showEverything();
+        if (isRecording && recording.scene !== scene) stopRecording();
+        // also where a slider was refused
+        panel.scene(scene);
         due();
         return done;
     }
@@ -310,9 +267,6 @@
         const other = preset(id('object').value);
         edit({ ...scene, ...other }, other.home);
     });
-    for (const [name, [unit]] of Object.entries(SLIDERS)) {
-        id(name).addEventListener('input', () => edit({ ...scene, rod: { ...scene.rod, [name]: Number((id(name).value * unit).toPrecision(6)) } }));
-    }
     for (const check of ['show-trail', 'hide-object', 'edit-object']) id(check).addEventListener('change', () => { isDirty = true; });
     id('clear-trail').addEventListener('click', clearTrail);
     id('reset').addEventListener('click', () => {
@@ -322,22 +276,16 @@
     id('scan').addEventListener('click', () => {
         restart();
         scanning = edit(scene, scene.home);
+        // the clamp has jumped to the start
+        if (isRecording) startRecording();
     });
     id('record').addEventListener('click', () => {
-        isRecording = !isRecording;
-        if (isRecording) {
-            recording = new Recording();
-            recording.since = performance.now();
-            recording.add(0, state);
-        }
-        id('record').setAttribute('aria-pressed', isRecording);
-        put(id('record'), isRecording ? '■ Stop' : '● Record');
-        id('csv').disabled = isRecording;
-        showState();
+        if (isRecording) stopRecording();
+        else startRecording();
     });
     id('csv').addEventListener('click', () => download('recording.csv', 'text/csv', recording.toCsv()));
     id('save').addEventListener('click', () => {
-        const [from, to] = recording ? [recording.poseAt(0), recording.poseAt(-1)] : [scene.home, state.pose];
+        const [from, to] = recording?.scene === scene ? [recording.poseAt(0), recording.poseAt(-1)] : [scene.home, state.pose];
         download('scene.toml', 'application/toml', toToml(scene, from, to, state.pose));
     });
     id('load').addEventListener('click', () => id('file').click());
@@ -348,7 +296,7 @@
             restart();
             edit(loaded, pose);
         } catch (error) {
-            say(`Not loaded: ${error.message}.`);
+            panel.say(`Not loaded: ${error.message}.`);
         }
         id('file').value = '';
     });
@@ -356,9 +304,9 @@
         writeHash();
         try {
             await navigator.clipboard.writeText(location.href);
-            say('The link is in the clipboard.');
+            panel.say('The link is in the clipboard.');
         } catch {
-            say('Copy the address of this page: it has the state.');
+            panel.say('Copy the address of this page: it has the state.');
         }
     });
     addEventListener('hashchange', () => {
