@@ -49,21 +49,29 @@ fn all_mistakes_of_a_table_in_one_message() {
     let object = square("angle = true\nscale = 0").replace("points = ", "edges = ");
     says(&object, &["scene.toml:6:1: object[1]: angle is true, expected a number; scale is 0, expected a positive"]);
     let arc = piece("arc", "radius = [1]\nend = 3");
-    let all = "missing field `center`; unknown field `end`, expected one of `center`, `radius`, `from_angle`, `to_angle`";
+    let all =
+        "missing field `center`; unknown field `end`, expected one of `center`, `radius`, `from_angle`, `to_angle`";
     says(&arc, &["scene.toml:6:1: contour.piece[1]: ", all, "; radius is a list, expected a number"]);
     let leg = SCENE.to_owned() + "[[sweep.leg]]\nturn = \"90\"\npivot = [1]\n";
-    says(&leg, &["sweep.leg[1]: pivot is a list of 1, expected two numbers: [x, y]; turn is the text \"90\", expected a number"]);
+    says(
+        &leg,
+        &[
+            "sweep.leg[1]: pivot is a list of 1, expected two numbers: [x, y]; turn is the text \"90\", expected a number",
+        ],
+    );
 }
 
 #[test]
 fn a_wrong_unit() {
     let expected = "length is \"100 mN\": `mN` is a unit of force, expected one of length: m, mm, um, cm, in, ft";
     says(&edited("0.1", "\"100 mN\""), &["scene.toml:2:10: rod.length: ", expected]);
-    let expected = "youngs_modulus is \"206 mm\": `mm` is a unit of length, expected one of stress: Pa, kPa, MPa, GPa, psi";
+    let expected =
+        "youngs_modulus is \"206 mm\": `mm` is a unit of length, expected one of stress: Pa, kPa, MPa, GPa, psi";
     says(&edited("206e9", "\"206 mm\""), &["scene.toml:4:18: rod.youngs_modulus: ", expected]);
     let expected = "from is \"-4 kg\": `kgf` is a unit of force, expected one of length";
     says(&edited("[0.07, -0.04]", "[0.07, \"-4 kg\"]"), &["scene.toml:17:15: sweep.from[2]: ", expected]);
-    let expected = "angle is \"90 furlongs\": `furlongs` is no unit that is known, expected one of angle: rad, mrad, deg";
+    let expected =
+        "angle is \"90 furlongs\": `furlongs` is no unit that is known, expected one of angle: rad, mrad, deg";
     says(&edited("90.0", "\"90 furlongs\""), &["scene.toml:19:9: sweep.angle: ", expected]);
     let expected = "coefficient is \"50 m\": `m` is a unit of length, expected one of curvature: 1/m, 1/mm, 1/cm";
     says(&edited("50.0", "\"50 m\""), &["contour.piece[1].coefficient: ", expected]);
@@ -84,7 +92,12 @@ fn an_unknown_field() {
     }
     let section = edited("[[contour", "[[section]]\nlength = 0.1\n[[contour");
     says(&section, &["scene.toml:6:3: section: unknown field `section`", "did you mean [[rod.section]]?"]);
-    says(&edited("coefficient", "curvature"), &["scene.toml:6:1: contour.piece[1]: missing field `coefficient`; unknown field `curvature`, expected one of `vertex`"]);
+    says(
+        &edited("coefficient", "curvature"),
+        &[
+            "scene.toml:6:1: contour.piece[1]: missing field `coefficient`; unknown field `curvature`, expected one of `vertex`",
+        ],
+    );
     says(&edited("parabola", "parbola"), &["scene.toml:7:9: contour.piece[1].shape: ", "parbola", "`parabola`"]);
     says(&edited("[sweep]", "[swep]"), &["scene.toml:16:", "swep: ", "unknown field `swep`"]);
 }
@@ -190,7 +203,8 @@ fn a_number_with_hundreds_of_digits() {
 fn an_implausible_number_is_named_before_an_error() {
     let modulus = "youngs_modulus = 206e9\n";
     let bent = edited("length = 0.1", "length = 30").replace(modulus, &format!("{modulus}natural_curvature = 20.0\n"));
-    let length = "length is 30 m, expected 1e-4 to 1e1 m; 30 mm would be 0.03, or \"30 mm\"; besides, rod.natural_curvature: ";
+    let length =
+        "length is 30 m, expected 1e-4 to 1e1 m; 30 mm would be 0.03, or \"30 mm\"; besides, rod.natural_curvature: ";
     says(&bent, &["scene.toml:2:10: rod.length: ", length]);
     let soft = edited("206e9", "206").replace("step = 1e-3\n", "");
     let modulus = "youngs_modulus is 206 Pa, expected 1e4 to 2e12 Pa; 206 GPa would be 2.06e11, or \"206 GPa\"; besides, sweep: missing field `step`";
@@ -202,7 +216,10 @@ fn an_implausible_number_is_named_before_an_error() {
     let far = edited("[0.07, -0.04]", "[70, -40]").replace("step = 1e-3", "step = 1e-6");
     says(
         &far,
-        &["sweep.to: the path is 806 lengths of the rod long; are from and to in m?; besides, sweep.step: ", "asks for 8.1e7 states"],
+        &[
+            "sweep.to: the path is 806 lengths of the rod long; are from and to in m?; besides, sweep.step: ",
+            "asks for 8.1e7 states",
+        ],
     );
 }
 

@@ -49,3 +49,4 @@ mod simulate;
 mod starts;
 mod studies;
 mod transitions;
+mod units;

@@ -70,7 +70,8 @@ mod tests {
         let units = read("white = { force = \"2.5 mN\", m0z = \"60 uN m\" }\nquantum.m0z = \"1e-3 N mm\"").unwrap();
         assert_eq!(units, read("white = { force = 2.5e-3, m0z = 6e-5 }\nquantum.m0z = 1e-6").unwrap());
         let error = read("white.force = \"2 mm\"").unwrap_err().to_string();
-        let expected = "noise.toml:1:15: white.force: force is \"2 mm\": `mm` is a unit of length, expected one of force: N, mN";
+        let expected =
+            "noise.toml:1:15: white.force: force is \"2 mm\": `mm` is a unit of length, expected one of force: N, mN";
         assert!(error.starts_with(expected), "{error}");
     }
 

@@ -28,6 +28,10 @@ pub(super) fn scene(
     let in_words = source.clone();
     scene_of_document(name, source, document, tables, directory, unlikely).map_err(|fault| match first {
         Some(first) if first.fault.span() == fault.span() => fault.and(&first.hint),
+        Some(first) if !first.is_first => {
+            let said = in_words.place(first.warning()).without_place();
+            fault.and(&format!("; besides, {said}"))
+        }
         Some(first) => {
             let said = in_words.place(fault).without_place();
             first.warning().and(&format!("; besides, {said}"))
@@ -56,7 +60,8 @@ fn scene_of_document(
     let step = step(&tables.sweep, &path)?;
     let legs = leg::all(tables.sweep.get_ref(), path.at(path.length()), rod.length())?;
     let (friction, large) = friction::friction(&tables, &contour, &pieces, &objects)?;
-    let warnings = unlikely.iter().map(Unlikely::warning).chain(large).map(|fault| source.place(fault).to_string()).collect();
+    let warnings =
+        unlikely.iter().map(Unlikely::warning).chain(large).map(|fault| source.place(fault).to_string()).collect();
     let roller = tables.clamp.as_ref().and_then(|clamp| clamp.get_ref().roller.as_ref());
     if let Some(roller) = roller.filter(|_| friction.is_some()) {
         return Err(Fault::new(roller.span(), "a roller ahead of the clamp beside friction, expected one of the two"));
@@ -170,6 +175,8 @@ struct Unlikely {
     fault: Fault,
     /// The end of the message: the unit that is most likely meant.
     hint: String,
+    /// Whether it is the likeliest reason for an error elsewhere: the rod and the path, not the objects.
+    is_first: bool,
 }
 
 impl Unlikely {
@@ -238,7 +245,7 @@ fn unlikely((name, field, range, unit): Field) -> Option<Unlikely> {
         }
         None => "; is the unit right?".to_owned(),
     };
-    (!range.contains(&value)).then(|| Unlikely { fault: Fault::new(span, text), hint })
+    (!range.contains(&value)).then(|| Unlikely { fault: Fault::new(span, text), hint, is_first: true })
 }
 
 /// Positions that are most likely not in m: the path, or else objects beside it.
@@ -249,14 +256,14 @@ fn far_away(document: &SceneDocument) -> Vec<Unlikely> {
     let too_far = |lengths: f64| lengths > LONG_WAY && lengths.is_finite();
     let far = |name: &str, span: Range<usize>, lengths: f64| {
         let text = format!("{name} is {lengths:.0} lengths of the rod away from sweep.from");
-        Unlikely { fault: Fault::new(span, text), hint: "; are both in m?".to_owned() }
+        Unlikely { fault: Fault::new(span, text), hint: "; are both in m?".to_owned(), is_first: false }
     };
     if let Some(to) = &sweep.to {
         let lengths = distance(start, to.get_ref().0) / length;
         if too_far(lengths) {
             let text = format!("the path is {lengths:.0} lengths of the rod long");
             let fault = Fault::new(to.span(), text);
-            return vec![Unlikely { fault, hint: "; are from and to in m?".to_owned() }];
+            return vec![Unlikely { fault, hint: "; are from and to in m?".to_owned(), is_first: true }];
         }
     }
     let mut found = Vec::new();

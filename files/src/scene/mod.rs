@@ -24,8 +24,8 @@ pub use rod::{FilmedRod, read_filmed_rod};
 
 use crate::SceneError;
 use crate::toml_file::{self, SourceText};
-use serde::Deserialize;
 use rod_table::{NO_ROLLER, NOT_RIGID, NOT_UNIFORM};
+use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::de::{DeTable, Deserializer};
 use toml::{Spanned, Table};
@@ -100,8 +100,10 @@ impl Scene {
         let directory = file.parent().unwrap_or(file);
         let source = SourceText::new(file, text);
         let read = |table: Spanned<DeTable<'_>>| {
-            let tables = Table::deserialize(Deserializer::from(table.clone()))?;
-            check::scene(stem(file), source, document::document(table)?, tables, directory)
+            let values = table.clone();
+            let document = document::document(table)?;
+            let tables = Table::deserialize(Deserializer::from(values))?;
+            check::scene(stem(file), source, document, tables, directory)
         };
         let (mut scene, warnings) = toml_file::parse_angles(file, text, schema::scene, read)?;
         scene.warnings.extend(warnings);

@@ -154,7 +154,8 @@ mod tests {
         let filmed = parse_filmed("rod.toml".as_ref(), text, None).unwrap();
         assert!(!filmed.is_stiffness_known && filmed.rod.length() == 0.04);
         let error = parse("[rod]\nlength = \"40 kg\"\nbending_stiffness = 1").unwrap_err().to_string();
-        let expected = "rod.toml:2:10: rod.length: length is \"40 kg\": `kgf` is a unit of force, expected one of length: m, mm";
+        let expected =
+            "rod.toml:2:10: rod.length: length is \"40 kg\": `kgf` is a unit of force, expected one of length: m, mm";
         assert!(error.starts_with(expected), "{error}");
     }
 
@@ -168,7 +169,10 @@ mod tests {
                 "[rod]\nlength = -1\nbending_stiffness = 1",
                 "rod.toml:2:10: rod.length: length is -1, expected a positive",
             ),
-            ("[rod]\nlength = \"m\"\nbending_stiffness = 1", "rod.toml:2:10: rod.length: the value is the text \"m\", expected a number"),
+            (
+                "[rod]\nlength = \"m\"\nbending_stiffness = 1",
+                "rod.toml:2:10: rod.length: the value is the text \"m\", expected a number",
+            ),
         ] {
             let error = parse(text).unwrap_err().to_string();
             assert!(error.starts_with(message), "{error}");

@@ -183,14 +183,14 @@ fn of_rod(table: &Spanned<DeTable<'_>>, unless: &[MissingUnless]) -> Result<Quan
     Ok(quantities)
 }
 
-/// The table, or the tables of a list, of that name.
+/// Tables of which there may be several.
+const LISTS: [&str; 4] = ["object", "piece", "section", "leg"];
+
+/// The table, or the tables of a list, of that name, if it is what it should be.
 fn tables_of<'a, 'b>(table: &'a DeTable<'b>, name: &str) -> Vec<&'a Spanned<DeValue<'b>>> {
     let found = match table.get(name) {
-        Some(value) => match value.get_ref() {
-            DeValue::Array(values) => values.iter().collect(),
-            _ => vec![value],
-        },
-        None => Vec::new(),
+        Some(value) if LISTS.contains(&name) => value.get_ref().as_array().into_iter().flatten().collect(),
+        value => Vec::from_iter(value),
     };
     found.into_iter().filter(|value| value.get_ref().is_table()).collect()
 }

@@ -124,7 +124,10 @@ impl Fault {
         if !fault.message.starts_with("string values must be quoted") {
             return fault;
         }
-        let message = format!("the value is `{written}`, expected a number, or a text in quotes: \"{}\"", written.split('#').next().unwrap_or_default().trim());
+        let message = format!(
+            "the value is `{written}`, expected a number, or a text in quotes: \"{}\"",
+            written.split('#').next().unwrap_or_default().trim()
+        );
         Self { message, ..fault }
     }
 

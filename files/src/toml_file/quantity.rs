@@ -23,6 +23,9 @@ impl Quantities {
     ) -> Option<Result<f64, Fault>> {
         let (number, unit) = split(text)?;
         if unit.starts_with(',') {
+            if !unit.contains(char::is_alphabetic) {
+                return None;
+            }
             let message = format!("{name} is \"{text}\", expected a decimal point: \"{}\"", text.replace(',', "."));
             return Some(Err(Fault::new(span, message)));
         }
@@ -122,7 +125,7 @@ mod tests {
         assert!((degrees - 90.0).abs() < 1e-13);
         let Some(Ok(inches)) = read("2 in", Length) else { panic!() };
         assert!((inches - 0.0508).abs() < 1e-16);
-        for text in ["", "long", "0.1", "mm", "e3 mm", "-"] {
+        for text in ["", "long", "0.1", "0,1", "mm", "e3 mm", "-"] {
             assert_eq!(read(text, Length), None, "{text}");
         }
     }

@@ -1,6 +1,9 @@
 //! Units by name.
 
-use Dimension::{Angle, BendingStiffness, Curvature, Force, Length, RotationalStiffness, Stiffness, Stress, Temperature, Time, Torque};
+use Dimension::{
+    Angle, BendingStiffness, Curvature, Force, Length, RotationalStiffness, Stiffness, Stress, Temperature, Time,
+    Torque,
+};
 use core::f64::consts::PI;
 
 /// What a unit measures.

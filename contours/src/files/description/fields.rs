@@ -161,12 +161,8 @@ impl ArcFields {
     pub(super) fn pieces(&self, _: &Path) -> Result<Pieces, ShapeError> {
         let Self { center, radius, from_angle, to_angle } = self;
         let [from_angle, to_angle] = angles(*from_angle, *to_angle)?;
-        let fields = [
-            ("center", &center[..]),
-            ("radius", &[*radius]),
-            ("from_angle", &[from_angle]),
-            ("to_angle", &[to_angle]),
-        ];
+        let fields =
+            [("center", &center[..]), ("radius", &[*radius]), ("from_angle", &[from_angle]), ("to_angle", &[to_angle])];
         CircularArc::new(*center, *radius, from_angle.to_radians(), to_angle.to_radians())
             .map(one)
             .map_err(|error| arc(error, &fields, "radius", [from_angle, to_angle]))

@@ -7,7 +7,8 @@ mod fields;
 mod listing;
 
 pub use fields::{
-    ArcFields, CircleFields, EllipseFields, LineFields, ParabolaFields, PolygonFields, SplineEndField, SplineFields, SvgFields,
+    ArcFields, CircleFields, EllipseFields, LineFields, ParabolaFields, PolygonFields, SplineEndField, SplineFields,
+    SvgFields,
 };
 
 pub use listing::{FieldInfo, FieldUnit, ShapeInfo};
@@ -146,13 +147,17 @@ mod tests {
             r#""arc", "center": [1, 2], "radius": 2"#,
             r#""ellipse", "center": [1, 2], "radii": [2, 2]"#,
         ] {
-            let circle = crate::Composite::new(shape(&format!("{{\"shape\": {fields}}}")).pieces(directory).unwrap()).unwrap();
+            let circle =
+                crate::Composite::new(shape(&format!("{{\"shape\": {fields}}}")).pieces(directory).unwrap()).unwrap();
             assert!(circle.is_closed() && !circle.is_cavity(), "{fields}");
             assert!((circle.gap(1.0, 5.0) - 1.0).abs() < 1e-14 && circle.gap(1.0, 2.5) < 0.0, "{fields}");
         }
         let half = shape(r#"{"shape": "arc", "center": [0, 1], "radius": 2, "to_angle": 9}"#);
         let error = half.pieces(directory).unwrap_err();
-        assert_eq!((error.field, error.to_string().as_str()), (Some("to_angle"), "given without from_angle, expected both, or neither for a closed curve"));
+        assert_eq!(
+            (error.field, error.to_string().as_str()),
+            (Some("to_angle"), "given without from_angle, expected both, or neither for a closed curve")
+        );
         let error = shape(r#"{"shape": "circle", "center": [0, 1], "radius": -2}"#).pieces(directory).unwrap_err();
         assert_eq!(error.field, Some("radius"));
     }
