@@ -75,7 +75,7 @@ fn each_first_scene_is_swept_as_it_is() {
     let directory = tempfile::tempdir().unwrap();
     let run = |arguments: &[&str]| vibrissa(directory.path(), arguments);
     for (option, phases) in
-        [("--whisking", "free B A free B free"), ("--recording", "free A B A free"), ("--polygon", "free B A")]
+        [("--whisking", "free B A free B A free"), ("--recording", "free A B A free"), ("--polygon", "free B A")]
     {
         let file = format!("{}.toml", option.trim_start_matches('-'));
         assert_eq!(run(&["init", option, &file]).status.code(), Some(0), "{option}");

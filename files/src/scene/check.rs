@@ -240,7 +240,7 @@ fn unlikely((name, field, range, unit): Field) -> Option<Unlikely> {
     let hint = match meant {
         Some((_, other, count)) => {
             let number = value / count;
-            let number = if number < 1e-3 || number >= 1e5 { format!("{number:e}") } else { number.to_string() };
+            let number = if (1e-3..1e5).contains(&number) { number.to_string() } else { format!("{number:e}") };
             format!("; {value} {other} would be {number}, or \"{value} {other}\"")
         }
         None => "; is the unit right?".to_owned(),
