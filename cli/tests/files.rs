@@ -52,6 +52,10 @@ fn a_sweep_writes_states_events_and_a_figure() {
         "stable",
         "energy",
         "max_stress",
+        "min_force",
+        "first_integral",
+        "condition",
+        "iterations",
     ];
     expected.sort_unstable();
     assert_eq!(keys(state), expected);
