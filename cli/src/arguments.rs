@@ -9,7 +9,7 @@ use clap_complete::Shell;
 use rod_files::SensorAddress;
 use std::path::PathBuf;
 use vibrissa::reconstruct::Friction;
-use vibrissa_cli::FakeProtocol;
+use vibrissa_cli::{FakeProtocol, FirstScene};
 
 /// Simulates a flexible whisker that is dragged past an object, and reconstructs the object from the forces and the moment at
 /// the base of the whisker.
@@ -99,6 +99,8 @@ pub enum Command {
         /// The new file
         #[arg(default_value = "scene.toml")]
         file: PathBuf,
+        #[command(flatten)]
+        first: First,
     },
     /// Sweep the rod of a scene along its path: shapes, contacts and reactions of the clamp as tables and a figure
     #[command(after_help = guide::SWEEP)]
@@ -172,6 +174,9 @@ pub enum Command {
         /// Sweep nothing, and print this scene of the study, by its number in rows.csv, as a scene file
         #[arg(long, value_name = "N", conflicts_with = "out")]
         scene: Option<usize>,
+        /// Number of threads [default: one for each core]
+        #[arg(long, value_name = "N", visible_alias = "threads", allow_negative_numbers = true, value_parser = number)]
+        jobs: Option<usize>,
     },
     /// Run the nine scans of Merker et al. (2020) and compare their phases with the paper's
     #[command(after_help = guide::PAPER)]
@@ -192,6 +197,33 @@ pub enum Command {
         /// The command
         command: Option<String>,
     },
+}
+
+/// Which scene `init` writes.
+#[derive(Debug, Args)]
+#[group(multiple = false)]
+pub struct First {
+    /// A whisker that turns about a point behind its base, past a peg and back
+    #[arg(long)]
+    whisking: bool,
+    /// A scene with the commands that simulate the recording of a sensor and reconstruct the object from it
+    #[arg(long)]
+    recording: bool,
+    /// A rod past an object with straight edges
+    #[arg(long)]
+    polygon: bool,
+}
+
+impl First {
+    /// The scene that is asked for.
+    pub fn scene(&self) -> FirstScene {
+        match (self.whisking, self.recording, self.polygon) {
+            (true, ..) => FirstScene::Whisking,
+            (_, true, _) => FirstScene::Recording,
+            (.., true) => FirstScene::Polygon,
+            _ => FirstScene::Ellipse,
+        }
+    }
 }
 
 /// A scan with a sensor.

@@ -14,8 +14,9 @@ budget and contour write nothing; live and fake-sensor end as usual. A second ti
 No command replaces a link, a device or one of its own inputs.";
 
 pub const INIT: &str = "\
-Example:
+Examples:
   vibrissa init bump.toml
+  vibrissa init --whisking whisking.toml
 
 Next: `vibrissa sweep bump.toml`. A file that exists is never overwritten.";
 

@@ -22,7 +22,7 @@ pub use budget::{BudgetError, BudgetStudy, Expected};
 pub use calibrate::{CalibrateError, Freed, RodCalibration};
 pub use fake_sensor::{FakeError, FakeProtocol, FakeScan, Played};
 pub use figure::FigureError;
-pub use init::{FIRST_SCENE, write_first_scene};
+pub use init::FirstScene;
 pub use inspect_text::inspection_text;
 pub use merged::Merged;
 pub use paper::{Paper, PaperError, PaperScan};

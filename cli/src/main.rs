@@ -32,9 +32,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use vibrissa::Rod;
 use vibrissa::contact::Stop;
 use vibrissa::reconstruct::{Budget, Known, NoiseModel};
-use vibrissa_cli::{
-    FakeScan, Paper, Played, shapes_list, write_elastica, write_first_scene, write_profiles, write_sweep,
-};
+use vibrissa_cli::{FakeScan, FirstScene, Paper, Played, shapes_list, write_elastica, write_profiles, write_sweep};
 
 /// A sweep stopped early, or is not what the paper found; a recording does not fit its rod.
 const UNFINISHED: u8 = 2;
@@ -52,7 +50,7 @@ fn main() -> ExitCode {
     let Arguments { quiet, command } = Arguments::parse();
     QUIET.store(quiet, Ordering::Relaxed);
     let result = match command {
-        Command::Init { file } => init(&file),
+        Command::Init { file, first } => init(first.scene(), &file),
         Command::Shapes => print(shapes_list().as_bytes()),
         Command::Completions { shell } => completions(shell),
         Command::Man { command } => man(command.as_deref()),
@@ -67,7 +65,7 @@ fn main() -> ExitCode {
         Command::Calibrate(arguments) => accuracy::calibrate(arguments),
         Command::Live(arguments) => live(arguments),
         Command::FakeSensor(arguments) => fake_sensor(arguments),
-        Command::Study { study, out, scene } => run_study(&study, out, scene),
+        Command::Study { study, out, scene, jobs } => run_study(&study, out, scene, jobs),
         Command::Paper { out } => paper(&out),
     };
     result.unwrap_or_else(|error| match error.of_output() {
@@ -90,8 +88,8 @@ fn is_broken_pipe(error: &io::Error) -> bool {
     }
 }
 
-fn init(file: &Path) -> Result<ExitCode, Error> {
-    write_first_scene(file)?;
+fn init(first: FirstScene, file: &Path) -> Result<ExitCode, Error> {
+    first.write(file)?;
     let file = file.display();
     say(&format!("written to {file}; next: vibrissa sweep {file}\n"));
     Ok(ExitCode::SUCCESS)
@@ -307,7 +305,11 @@ fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     Ok(stop.map_or(ExitCode::SUCCESS, |stop| stopped(&name, &stop)))
 }
 
-fn run_study(file: &Path, out: Option<PathBuf>, scene: Option<usize>) -> Result<ExitCode, Error> {
+fn run_study(file: &Path, out: Option<PathBuf>, scene: Option<usize>, jobs: Option<usize>) -> Result<ExitCode, Error> {
+    if let Some(jobs) = jobs {
+        // fails only where the threads are there already
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global();
+    }
     let study = Study::read(file)?;
     if let Some(number) = scene {
         return print(study.text(number)?.as_bytes());

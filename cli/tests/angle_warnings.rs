@@ -30,9 +30,34 @@ fn radians_in_a_scene() {
 fn a_clamp_that_turns_more_than_twice() {
     assert!(warnings(&edited("90.0", "720")).is_empty());
     let warned = warnings(&edited("90.0", "5156.62"));
-    let clamp =
-        "scene.toml:19:9: sweep.angle: angle is 5156.62 degrees, more than two turns of the clamp; is that meant?";
+    let clamp = "scene.toml:19:9: sweep.angle: angle is 5156.62 degrees; is 90 degrees meant, converted twice?";
     assert_eq!(warned, [clamp]);
+    let warned = warnings(&edited("90.0", "1000"));
+    let clamp = "scene.toml:19:9: sweep.angle: angle is 1000 degrees, more than two turns of the clamp; is that meant?";
+    assert_eq!(warned, [clamp]);
+}
+
+#[test]
+fn other_angles_in_radians_and_degrees_with_the_unit_of_radians() {
+    let clamp = "scene.toml:19:9: sweep.angle: angle is 0.7854 degrees; is 45 degrees meant?";
+    assert_eq!(warnings(&edited("90.0", "0.7854")), [clamp]);
+    let clamp = "scene.toml:19:9: sweep.angle: angle is 90 rad, 14.3 turns; is \"90 deg\" meant?";
+    assert_eq!(warnings(&edited("90.0", "\"90 rad\"")), [clamp]);
+    assert!(warnings(&edited("90.0", "\"1.5708 rad\"")).is_empty());
+}
+
+#[test]
+fn positions_that_are_not_in_metres() {
+    let far = "scene.toml:13:10: contour.piece[2].vertex: vertex is 299 lengths of the rod away from sweep.from; are both in m?";
+    assert_eq!(warnings(&edited("[0.03, 0.0]", "[30.0, 0.0]")), [far]);
+    let object = edited("[[contour.piece]]", "[contour]\nposition = [0.0, 30.0]\n[[contour.piece]]");
+    let far =
+        "scene.toml:7:12: contour.position: position is 300 lengths of the rod away from sweep.from; are both in m?";
+    assert_eq!(warnings(&object), [far]);
+    let wall = "[[object]]\n[[object.piece]]\nshape = \"circle\"\ncenter = [0, 50]\nradius = 50\n";
+    assert!(warnings(&crate::common::with_objects(wall)).is_empty(), "a wall that is nearly flat");
+    let leg = SCENE.to_owned() + "[[sweep.leg]]\nto = [30.0, -40.0]\nstep = 1.0\n";
+    assert!(warnings(&leg)[0].contains("sweep.leg[1].to: to is 499 lengths of the rod away from sweep.from"));
 }
 
 #[test]

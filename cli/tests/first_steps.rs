@@ -70,6 +70,45 @@ fn the_first_scene_is_swept_as_it_is_and_never_written_over_a_file() {
     assert!(complaint(&run(&["init", "nowhere/scene.toml"])).contains("cannot write nowhere/scene.toml"));
 }
 
+#[test]
+fn each_first_scene_is_swept_as_it_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| vibrissa(directory.path(), arguments);
+    for (option, phases) in
+        [("--whisking", "free B A free B A free"), ("--recording", "free A B A free"), ("--polygon", "free B A")]
+    {
+        let file = format!("{}.toml", option.trim_start_matches('-'));
+        assert_eq!(run(&["init", option, &file]).status.code(), Some(0), "{option}");
+        let output = run(&["sweep", &file]);
+        assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+        let report = String::from_utf8(output.stdout).unwrap();
+        assert!(report.contains(&format!(": {phases};")) && output.stderr.is_empty(), "{report}");
+    }
+    let output = run(&["init", "--whisking", "--polygon", "both.toml"]);
+    assert!(output.status.code() == Some(2) && complaint(&output).contains("cannot be used with"));
+}
+
+/// The commands in the comments of the scene, run as they are.
+#[test]
+fn the_commands_of_the_recording_scene_work() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| vibrissa(directory.path(), arguments);
+    assert_eq!(run(&["init", "--recording"]).status.code(), Some(0));
+    let text = fs::read_to_string(directory.path().join("scene.toml")).unwrap();
+    let commands = text.lines().filter_map(|line| line.strip_prefix("#   vibrissa ")).map(str::to_owned);
+    let commands: Vec<String> = commands.collect();
+    assert_eq!(commands.len(), 2, "{text}");
+    for command in commands {
+        let output = run(&command.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", complaint(&output));
+    }
+    assert!(directory.path().join("reconstruction/contour.svg").exists());
+    let noise = text.lines().find_map(|line| line.strip_prefix("#   white")).unwrap();
+    fs::write(directory.path().join("noise.toml"), format!("white{noise}\n")).unwrap();
+    let noisy = ["simulate", "scene.toml", "--noise", "noise.toml", "--seed", "1", "--sigmas", "--out", "noisy.csv"];
+    assert_eq!(run(&noisy).status.code(), Some(0));
+}
+
 /// The list is made from the shapes; the page about scene files must name the same fields.
 #[test]
 fn the_list_of_shapes_is_that_of_the_page() {

@@ -277,7 +277,7 @@ fn the_reaction_of_a_roller_is_written() {
     assert!(vibrissa(dir.path(), &["sweep", "roller.toml"]).status.success());
     let written = |name: &str| std::fs::read_to_string(dir.path().join("out/roller").join(name)).unwrap();
     let header = written("states.csv").lines().next().unwrap().to_owned();
-    assert!(header.ends_with(",leg,roller,roller_s"), "{header}");
+    assert!(header.ends_with(",leg,min_force,first_integral,condition,iterations,roller,roller_s"), "{header}");
     let scene = Scene::parse("roller.toml".as_ref(), &scene).unwrap();
     assert!(scene.rod.roller().is_some());
     let states = Scan::run(scene).unwrap().outcome.states;

@@ -25,7 +25,59 @@ fn a_missing_field() {
     says(&edited("step = 1e-3\n", ""), &["scene.toml:16:1: sweep: ", "missing field `step` (m)"]);
     says(&edited("youngs_modulus = 206e9\n", ""), &["rod: ", "missing field `youngs_modulus`", "bending_stiffness"]);
     says(&edited("diameter = 0.5e-3\n", ""), &["rod: ", "missing field `diameter`"]);
-    says("", &["scene.toml:1:1: ", "missing field `rod`"]);
+    says("", &["scene.toml:1:1: ", "missing tables [rod], [sweep], [[object]]; `vibrissa init` writes a scene"]);
+    let nothing = "missing field `to`, expected it, or angle_to for a clamp that turns on the spot";
+    says(&edited("to = [0.03, -0.04]\n", ""), &["scene.toml:16:1: sweep: ", nothing]);
+}
+
+#[test]
+fn all_mistakes_of_a_table_in_one_message() {
+    let rod = edited("length = 0.1\ndiameter = 0.5e-3\n", "diametre = \"thin\"\n");
+    says(&rod, &["scene.toml:1:1: rod: missing field `length`; unknown field `diametre`, did you mean `diameter`?"]);
+    let rod = edited("length = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n", "yield_stress = -1\n");
+    let all = "missing field `length`; missing `diameter` and `youngs_modulus`, or `bending_stiffness`; \
+               yield_stress is -1, expected a positive, finite number";
+    says(&rod, &["scene.toml:1:1: rod: ", all]);
+    let rod = edited("length = 0.1\ndiameter = 0.5e-3\n", "length = \"long\"\ndiameter = \"0.5 mN\"\n");
+    let all = "`mN` is a unit of force, expected one of length: m, mm, um, cm, in, ft; length is the text \"long\", expected a number";
+    says(&rod, &["scene.toml:1:1: rod: diameter is \"0.5 mN\": ", all]);
+    let path = edited("from = [0.07, -0.04]\nto = [0.03, -0.04]\n", "").replace("1e-3", "-1e-3");
+    let all = "missing field `from`; missing `to`, or `angle_to` for a clamp that turns on the spot; step is -0.001, expected a positive";
+    says(&path, &["scene.toml:16:1: sweep: ", all]);
+    let path = edited("from = [0.07, -0.04]\n", "from = [0,07, -0,04]\n").replace("angle = 90.0", "turn = 90.0");
+    says(&path, &["scene.toml:17:9: the value is `0,07`, expected a decimal point"]);
+    let object = square("angle = true\nscale = 0").replace("points = ", "edges = ");
+    says(&object, &["scene.toml:6:1: object[1]: angle is true, expected a number; scale is 0, expected a positive"]);
+    let arc = piece("arc", "radius = [1]\nend = 3");
+    let all =
+        "missing field `center`; unknown field `end`, expected one of `center`, `radius`, `from_angle`, `to_angle`";
+    says(&arc, &["scene.toml:6:1: contour.piece[1]: ", all, "; radius is a list, expected a number"]);
+    let leg = SCENE.to_owned() + "[[sweep.leg]]\nturn = \"90\"\npivot = [1]\n";
+    says(
+        &leg,
+        &[
+            "sweep.leg[1]: pivot is a list of 1, expected two numbers: [x, y]; turn is the text \"90\", expected a number",
+        ],
+    );
+}
+
+#[test]
+fn a_wrong_unit() {
+    let expected = "length is \"100 mN\": `mN` is a unit of force, expected one of length: m, mm, um, cm, in, ft";
+    says(&edited("0.1", "\"100 mN\""), &["scene.toml:2:10: rod.length: ", expected]);
+    let expected =
+        "youngs_modulus is \"206 mm\": `mm` is a unit of length, expected one of stress: Pa, kPa, MPa, GPa, psi";
+    says(&edited("206e9", "\"206 mm\""), &["scene.toml:4:18: rod.youngs_modulus: ", expected]);
+    let expected = "from is \"-4 kg\": `kgf` is a unit of force, expected one of length";
+    says(&edited("[0.07, -0.04]", "[0.07, \"-4 kg\"]"), &["scene.toml:17:15: sweep.from[2]: ", expected]);
+    let expected =
+        "angle is \"90 furlongs\": `furlongs` is no unit that is known, expected one of angle: rad, mrad, deg";
+    says(&edited("90.0", "\"90 furlongs\""), &["scene.toml:19:9: sweep.angle: ", expected]);
+    let expected = "coefficient is \"50 m\": `m` is a unit of length, expected one of curvature: 1/m, 1/mm, 1/cm";
+    says(&edited("50.0", "\"50 m\""), &["contour.piece[1].coefficient: ", expected]);
+    says(&edited("0.1", "\"0,1 m\""), &["rod.length: ", "expected a decimal point: \"0.1 m\""]);
+    // what is wrong with the number is said of it in the unit of the file
+    says(&edited("0.1", "\"-40 mm\""), &["scene.toml:2:10: rod.length: length is -0.04, expected a positive"]);
 }
 
 #[test]
@@ -40,7 +92,12 @@ fn an_unknown_field() {
     }
     let section = edited("[[contour", "[[section]]\nlength = 0.1\n[[contour");
     says(&section, &["scene.toml:6:3: section: unknown field `section`", "did you mean [[rod.section]]?"]);
-    says(&edited("coefficient", "curvature"), &["scene.toml:9:1: contour.piece[1].curvature: ", "`coefficient`"]);
+    says(
+        &edited("coefficient", "curvature"),
+        &[
+            "scene.toml:6:1: contour.piece[1]: missing field `coefficient`; unknown field `curvature`, expected one of `vertex`",
+        ],
+    );
     says(&edited("parabola", "parbola"), &["scene.toml:7:9: contour.piece[1].shape: ", "parbola", "`parabola`"]);
     says(&edited("[sweep]", "[swep]"), &["scene.toml:16:", "swep: ", "unknown field `swep`"]);
 }
@@ -71,7 +128,7 @@ fn a_key_given_twice() {
 
 #[test]
 fn a_number_that_toml_does_not_take() {
-    let unit = "the value is `100 mm`, expected a number without a unit, or a text in quotes";
+    let unit = "the value is `100 mm`, expected a number, or a text in quotes: \"100 mm\"";
     says(&edited("length = 0.1", "length = 100 mm"), &["scene.toml:2:10: ", unit]);
     says(
         &edited("50.0", "1e400"),
@@ -106,7 +163,10 @@ fn a_length_that_is_none() {
     says(&edited("0.1", "0.0"), &["scene.toml:2:10: rod.length: ", "length is 0, expected a positive"]);
     says(&edited("0.5e-3", "-5e-4"), &["scene.toml:3:12: rod.diameter: ", "diameter is -0.0005, expected a positive"]);
     let expected = "diameter is 0.5 m, expected at most the length, 0.1 m";
-    says(&edited("0.5e-3", "0.5"), &["scene.toml:3:12: rod.diameter: ", expected]);
+    let meant = "; 0.5 mm would be 5e-4, or \"0.5 mm\"";
+    says(&edited("0.5e-3", "0.5"), &["scene.toml:3:12: rod.diameter: ", expected, meant]);
+    let meant = "diameter is 0.2 m, expected at most the length, 0.1 m; 0.2 mm would be 2e-4, or \"0.2 mm\"";
+    says(&edited("0.5e-3", "0.2"), &["scene.toml:3:12: rod.diameter: ", meant]);
     says(&edited("206e9", "0"), &["scene.toml:4:18: rod.youngs_modulus: ", "youngs_modulus is 0, expected a positive"]);
     let stiffness = edited("diameter = 0.5e-3\nyoungs_modulus = 206e9", "bending_stiffness = 0.0");
     says(&stiffness, &["scene.toml:3:21: rod.bending_stiffness: ", "is 0, expected a positive"]);
@@ -140,11 +200,15 @@ fn a_number_with_hundreds_of_digits() {
 
 /// What is wrong may come from a number in another unit elsewhere.
 #[test]
-fn an_error_beside_an_implausible_number_names_both() {
+fn an_implausible_number_is_named_before_an_error() {
     let modulus = "youngs_modulus = 206e9\n";
     let bent = edited("length = 0.1", "length = 30").replace(modulus, &format!("{modulus}natural_curvature = 20.0\n"));
-    let length = "besides, rod.length: length is 30 m, expected 1e-4 to 1e1 m; is the unit right?";
-    says(&bent, &["scene.toml:5:21: rod.natural_curvature: ", length]);
+    let length =
+        "length is 30 m, expected 1e-4 to 1e1 m; 30 mm would be 0.03, or \"30 mm\"; besides, rod.natural_curvature: ";
+    says(&bent, &["scene.toml:2:10: rod.length: ", length]);
+    let soft = edited("206e9", "206").replace("step = 1e-3\n", "");
+    let modulus = "youngs_modulus is 206 Pa, expected 1e4 to 2e12 Pa; 206 GPa would be 2.06e11, or \"206 GPa\"; besides, sweep: missing field `step`";
+    says(&soft, &["scene.toml:4:18: rod.youngs_modulus: ", modulus]);
     let sections = "[[rod.section]]\nlength = 60\nbending_stiffness = 6e-4\n[[rod.section]]\nlength = 40\nbending_stiffness = 1e-4\n";
     let sections = edited("diameter = 0.5e-3\nyoungs_modulus = 206e9\n", sections);
     let sum = "add up to 100 m, expected 0.1 m, the length of the rod; are they in mm?";
@@ -152,7 +216,10 @@ fn an_error_beside_an_implausible_number_names_both() {
     let far = edited("[0.07, -0.04]", "[70, -40]").replace("step = 1e-3", "step = 1e-6");
     says(
         &far,
-        &["sweep.step: ", "asks for 8.1e7 states", "besides, sweep.to: the path is 806 lengths of the rod long"],
+        &[
+            "sweep.to: the path is 806 lengths of the rod long; are from and to in m?; besides, sweep.step: ",
+            "asks for 8.1e7 states",
+        ],
     );
 }
 

@@ -51,3 +51,4 @@ mod simulate;
 mod starts;
 mod studies;
 mod transitions;
+mod units;

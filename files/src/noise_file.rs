@@ -1,10 +1,12 @@
 //! Noise models from TOML files.
 
 use crate::SceneError;
-use crate::toml_file::{self, Fault, place_of};
+use crate::toml_file::{self, Fault, Quantities, place_of};
 use serde::Deserialize;
 use std::path::Path;
-use toml::de::{DeTable, Deserializer};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer};
+use vibrissa::hw::Dimension;
 use vibrissa::reconstruct::{NoiseError, NoiseModel};
 
 /// The noise model in a TOML file, SI units: any of the tables `gain`, `offset`, `white`, `ar1`, `random_walk`,
@@ -17,12 +19,31 @@ pub fn read_noise(file: &Path) -> Result<NoiseModel, SceneError> {
 }
 
 fn parse(file: &Path, text: &str) -> Result<NoiseModel, SceneError> {
-    toml_file::parse(file, text, |table| {
+    toml_file::parse_quantities(file, text, quantities, |table| {
         let tree = table.get_ref().clone();
         let model = NoiseModel::deserialize(Deserializer::from(table))?;
         model.check().map_err(|error| fault(&tree, &error))?;
         Ok(model)
     })
+}
+
+/// Tables whose fields are forces and moments.
+const IN_UNITS: [&str; 5] = ["offset", "white", "ar1", "random_walk", "quantum"];
+
+fn quantities(table: &Spanned<DeTable<'_>>) -> Result<Quantities, Fault> {
+    let mut quantities = Quantities::default();
+    let tables = IN_UNITS.iter().filter_map(|name| table.get_ref().get(*name)?.get_ref().as_table());
+    for (name, value) in tables.flatten() {
+        let dimension = match name.get_ref().as_ref() {
+            "force" | "f0x" | "f0y" => Dimension::Force,
+            "m0z" => Dimension::Torque,
+            _ => continue,
+        };
+        if let DeValue::String(text) = value.get_ref() {
+            quantities.read(name.get_ref(), text, value.span(), dimension).transpose()?;
+        }
+    }
+    Ok(quantities)
 }
 
 /// Blames the field, or the one that stands for it.
@@ -42,6 +63,17 @@ fn fault(tree: &DeTable<'_>, error: &NoiseError) -> Fault {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn forces_and_moments_may_have_units() {
+        let read = |text: &str| parse("noise.toml".as_ref(), text);
+        let units = read("white = { force = \"2.5 mN\", m0z = \"60 uN m\" }\nquantum.m0z = \"1e-3 N mm\"").unwrap();
+        assert_eq!(units, read("white = { force = 2.5e-3, m0z = 6e-5 }\nquantum.m0z = 1e-6").unwrap());
+        let error = read("white.force = \"2 mm\"").unwrap_err().to_string();
+        let expected =
+            "noise.toml:1:15: white.force: force is \"2 mm\": `mm` is a unit of length, expected one of force: N, mN";
+        assert!(error.starts_with(expected), "{error}");
+    }
 
     #[test]
     fn mistakes_have_their_places() {

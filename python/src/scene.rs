@@ -55,13 +55,13 @@ pub struct PyScene {
 }
 
 impl PyScene {
-    fn of(py: Python<'_>, scene: Scene, text: &str, directory: &Path) -> PyResult<Self> {
+    fn of(py: Python<'_>, scene: Scene, directory: &Path) -> PyResult<Self> {
         if scene.rod.roller().is_some() {
             return Err(errors::value(
                 "clamp.roller is a roller ahead of the clamp, which is not known in Python, expected no field roller",
             ));
         }
-        let tables: Table = text.parse().map_err(errors::value)?;
+        let tables = scene.tables().clone();
         let Scene { name, objects, path, step, legs, friction, warnings, .. } = scene;
         let mut written = written_objects(&tables, directory).into_iter();
         let with = |composite| Py::new(py, PyComposite::read(composite, written.next()));
@@ -278,7 +278,7 @@ impl PyScene {
     #[staticmethod]
     fn read(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
         let scene = Scene::read(&file).map_err(errors::file)?;
-        Self::of(py, scene, &std::fs::read_to_string(&file)?, &Self::directory(&file))
+        Self::of(py, scene, &Self::directory(&file))
     }
 
     /// A scene from TOML.
@@ -302,7 +302,7 @@ impl PyScene {
     #[pyo3(signature = (text, file=PathBuf::from("scene.toml")), text_signature = "(text, file='scene.toml')")]
     fn parse(py: Python<'_>, text: &str, file: PathBuf) -> PyResult<Self> {
         let scene = Scene::parse(&file, text).map_err(errors::file)?;
-        Self::of(py, scene, text, &Self::directory(&file))
+        Self::of(py, scene, &Self::directory(&file))
     }
 
     /// The scene as TOML, as the command reads it.

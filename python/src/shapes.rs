@@ -154,7 +154,7 @@ impl PyCircularArc {
     ) -> PyResult<(Self, PyShape)> {
         let constructor = constructor!(py, "CircularArc", center, radius, angle_from, angle_to);
         let (from_angle, to_angle) = (degrees(angle_from), degrees(angle_to));
-        let written = Shape::Arc(ArcFields { center, radius, from_angle, to_angle });
+        let written = Shape::Arc(ArcFields { center, radius, from_angle: Some(from_angle), to_angle: Some(to_angle) });
         Ok((Self, single(CircularArc::new(center, radius, angle_from, angle_to), Some(&written), constructor)?))
     }
 }
@@ -193,6 +193,7 @@ impl PyEllipticArc {
     ) -> PyResult<(Self, PyShape)> {
         let constructor = constructor!(py, "EllipticArc", center, radii, angle_from, angle_to, rotation);
         let [turned, from_angle, to_angle] = [rotation, angle_from, angle_to].map(degrees);
+        let (from_angle, to_angle) = (Some(from_angle), Some(to_angle));
         let written = Shape::Ellipse(EllipseFields { center, radii, rotation: turned, from_angle, to_angle });
         Ok((
             Self,

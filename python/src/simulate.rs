@@ -70,7 +70,8 @@ impl Recorder<'_> {
 /// Parameters
 /// ----------
 /// scene : Scene
-///     What the clamp is led along: a straight path of one leg. Its step is not used.
+///     The rod, the objects and the path of the clamp: one straight leg. For paths of several legs use ``vibrissa simulate``. The
+///     step of the scene is not used.
 /// rate : float
 ///     Samples in a second, in Hz.
 /// speed : float

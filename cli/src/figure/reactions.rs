@@ -32,7 +32,7 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
         ("m_{0z} in N mm", &|sample| 1e3 * reactions(sample).m0z),
         match uniform {
             Some(_) => ("K in (N mm)²", &|sample| uniform.map_or(f64::NAN, |rod| phase_criterion(rod, sample))),
-            None => ("K L²/EI", &angle),
+            None => ("−2 f sin ρ in EI/L²", &angle),
         },
         ("probability", &|sample| found.found.readings[sample].probability),
     ];
@@ -42,7 +42,8 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
     let along = along(found, &path, abscissa);
     svg((WIDTH, height), |root| {
         let (head, rest) = root.split_vertically(HEAD);
-        let title = format!("{}: reactions, phase criterion K, and probability of the label", found.name);
+        let criterion = if uniform.is_some() { "phase criterion K" } else { "phase criterion −2 f sin ρ" };
+        let title = format!("{}: reactions, {criterion}, and probability of the label", found.name);
         write(&head, &title, (24, 36), HPos::Left, TITLE, INK)?;
         let kinks = match found.found.kinks.len() {
             1 => "1 kink or jump".to_owned(),

@@ -1,4 +1,4 @@
-//! A scene to begin with.
+//! Scenes to begin with.
 
 use rod_files::OutputError;
 use std::fs::OpenOptions;
@@ -6,17 +6,49 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 /// A commented scene that can be swept as it is.
-pub const FIRST_SCENE: &str = include_str!("scene.toml");
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FirstScene {
+    /// A rod past an ellipse.
+    #[default]
+    Ellipse,
+    /// A rod past a polygon.
+    Polygon,
+    /// A whisker that turns past a peg and back.
+    Whisking,
+    /// A scene with the commands that simulate a recording and reconstruct the object.
+    Recording,
+}
 
-/// Writes [`FIRST_SCENE`] to a new file.
-///
-/// # Errors
-/// [`OutputError::Exists`] where there is a file, a link or anything else of this name; [`OutputError::File`].
-pub fn write_first_scene(file: &Path) -> Result<(), OutputError> {
-    let failed = |source: std::io::Error| match source.kind() {
-        ErrorKind::AlreadyExists => OutputError::Exists { file: file.to_path_buf() },
-        _ => OutputError::File { file: file.to_path_buf(), source },
-    };
-    let mut new = OpenOptions::new().write(true).create_new(true).open(file).map_err(failed)?;
-    new.write_all(FIRST_SCENE.as_bytes()).map_err(failed)
+impl FirstScene {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Ellipse, Self::Polygon, Self::Whisking, Self::Recording];
+
+    /// The text of the scene file.
+    ///
+    /// ```
+    /// use vibrissa_cli::FirstScene;
+    /// assert!(FirstScene::Whisking.text().contains("pivot"));
+    /// ```
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Ellipse => include_str!("scene.toml"),
+            Self::Polygon => include_str!("polygon.toml"),
+            Self::Whisking => include_str!("whisking.toml"),
+            Self::Recording => include_str!("recording.toml"),
+        }
+    }
+
+    /// Writes it to a new file.
+    ///
+    /// # Errors
+    /// [`OutputError::Exists`] where there is a file, a link or anything else of this name; [`OutputError::File`].
+    pub fn write(self, file: &Path) -> Result<(), OutputError> {
+        let failed = |source: std::io::Error| match source.kind() {
+            ErrorKind::AlreadyExists => OutputError::Exists { file: file.to_path_buf() },
+            _ => OutputError::File { file: file.to_path_buf(), source },
+        };
+        let mut new = OpenOptions::new().write(true).create_new(true).open(file).map_err(failed)?;
+        new.write_all(self.text().as_bytes()).map_err(failed)
+    }
 }

@@ -188,6 +188,8 @@ fn ask_unit(column: &ColumnGuess, name: &str, dimension: Dimension) -> Question 
         Dimension::Angle => &["rad", "deg"],
         Dimension::Time => &["s", "ms"],
         Dimension::Temperature => &["degC"],
+        // no column of a recording is measured in the others
+        _ => &[],
     };
     let text = format!("{} {}", unit_question(name), column.unit_basis.why);
     Question {

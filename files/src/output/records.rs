@@ -24,6 +24,10 @@ pub(super) struct StateRecord {
     min_gap_bound: Option<f64>,
     gap_proven: bool,
     leg: usize,
+    min_force: Option<f64>,
+    first_integral: Option<f64>,
+    condition: f64,
+    iterations: u32,
     /// The reaction of a roller ahead of the clamp, and the arc length there.
     #[serde(skip_serializing_if = "Option::is_none")]
     roller: Option<f64>,
@@ -50,6 +54,10 @@ impl From<&State> for StateRecord {
             min_gap_bound: Some(state.certificate.min_gap.lower).filter(|bound| bound.is_finite()),
             gap_proven: state.certificate.min_gap.proven,
             leg: state.leg,
+            min_force: state.certificate.min_force,
+            first_integral: state.certificate.first_integral,
+            condition: state.certificate.condition,
+            iterations: state.certificate.iterations,
             roller: state.roller.as_ref().map(|roller| roller.force),
             roller_s: state.roller.as_ref().map(|roller| roller.s),
         }
@@ -133,7 +141,7 @@ impl From<&Event> for EventRecord {
 }
 
 /// The columns of states.csv.
-pub(super) const STATE_COLUMNS: [&str; 16] = [
+pub(super) const STATE_COLUMNS: [&str; 20] = [
     "state",
     "x0",
     "y0",
@@ -150,6 +158,10 @@ pub(super) const STATE_COLUMNS: [&str; 16] = [
     "min_gap_bound",
     "gap_proven",
     "leg",
+    "min_force",
+    "first_integral",
+    "condition",
+    "iterations",
 ];
 
 /// Those that follow where the rod runs through a roller.
@@ -163,7 +175,9 @@ pub(super) fn state_row((index, state): (usize, &State)) -> impl Serialize {
     let checks = (r.residual, r.min_gap, r.stable);
     // two columns more where there is a roller
     let roller: Vec<f64> = [r.roller, r.roller_s].into_iter().flatten().collect();
-    (place, forces, checks, (r.energy, r.max_stress, r.min_gap_bound, r.gap_proven, r.leg), roller)
+    let others = (r.energy, r.max_stress, r.min_gap_bound, r.gap_proven, r.leg);
+    let solver = (r.min_force, r.first_integral, r.condition, r.iterations);
+    (place, forces, checks, others, solver, roller)
 }
 
 /// The columns of contacts.csv.

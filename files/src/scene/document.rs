@@ -111,7 +111,8 @@ pub(super) struct ObjectTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct SweepTable {
     pub from: Spanned<PointValue>,
-    pub to: Spanned<PointValue>,
+    /// Where the clamp only turns, it may be left out.
+    pub to: Option<Spanned<PointValue>>,
     pub angle: Spanned<f64>,
     pub angle_to: Option<Spanned<f64>>,
     pub step: Option<Spanned<f64>>,

@@ -2,7 +2,7 @@
 
 use super::document::{PointValue, RodTable};
 use super::numbers::{not, too_large};
-use super::{rod_table, stem};
+use super::{rod_table, schema, stem};
 use crate::toml_file::{self, Fault, SourceText};
 use crate::{ElasticaRun, SceneError};
 use serde::Deserialize;
@@ -108,7 +108,7 @@ impl ElasticaScene {
     /// [`SceneError::Invalid`] with the place in the text.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
         let source = SourceText::new(file, text);
-        let (mut scene, warnings) = toml_file::parse_angles(file, text, |table| {
+        let (mut scene, warnings) = toml_file::parse_angles(file, text, schema::elastica, |table| {
             let document = ElasticaFile::deserialize(Deserializer::from(table))?;
             scene(stem(file), source, &document)
         })?;
@@ -261,6 +261,20 @@ mod tests {
     fn read(rest: &str) -> Result<ElasticaRun, String> {
         let scene = ElasticaScene::parse("rod.toml".as_ref(), &format!("{rest}\n{ROD}"));
         scene.and_then(ElasticaScene::solve).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn quantities_may_have_units() {
+        let run = read(
+            "clamp = { place = [\"10 mm\", 0], angle = \"1 deg\" }\nload = [{ s = \"5 cm\", force = [0, \"-2 mN\"] }]\n\
+             tip = { force = [\"1 mN\", \"0 N\"], moment = \"3 N mm\" }",
+        );
+        let scene = run.unwrap().scene;
+        assert_eq!((scene.clamp.x, scene.clamp.phi), (0.01, 1_f64.to_radians()));
+        assert_eq!(scene.loads, [DeadLoad { s: 0.05, fx: 0.0, fy: -2e-3 }]);
+        assert_eq!(scene.tip, Tip::loaded(1e-3, 0.0, 3e-3));
+        let wrong = read("tip = { moment = \"3 mN\" }").unwrap_err();
+        assert!(wrong.contains("moment is \"3 mN\": `mN` is a unit of force, expected one of torque"), "{wrong}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::document::{CalibrationTable, EstimateTable};
 use super::rod::RodFile;
+use super::schema;
 use crate::toml_file::Fault;
 use crate::{SceneError, toml_file};
 use serde::Deserialize;
@@ -43,7 +44,7 @@ pub fn read_calibrated_rod(file: &Path) -> Result<CalibratedRod, SceneError> {
 }
 
 fn parse_any(file: &Path, text: &str) -> Result<CalibratedRod, SceneError> {
-    toml_file::parse(file, text, |table| {
+    toml_file::parse_quantities(file, text, schema::rod_file, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
         let rod = file.any()?;
         match (rod.uniform(), &file.calibration) {
@@ -63,7 +64,7 @@ pub fn read_uniform_rod(file: &Path, instead: &str) -> Result<(Rod, Known), Scen
 }
 
 fn parse(file: &Path, text: &str, instead: &str) -> Result<(Rod, Known), SceneError> {
-    toml_file::parse(file, text, |table| {
+    toml_file::parse_quantities(file, text, schema::rod_file, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
         let rod = file.uniform(instead)?;
         Ok((rod, file.known(&rod)?))

@@ -14,6 +14,7 @@ mod numbers;
 mod object;
 mod rod;
 mod rod_table;
+mod schema;
 mod shape;
 
 pub use elastica::ElasticaScene;
@@ -26,9 +27,10 @@ pub use rod::{FilmedRod, read_filmed_rod};
 use crate::SceneError;
 use crate::toml_file::{self, SourceText};
 use rod_table::{NO_ROLLER, NOT_RIGID, NOT_UNIFORM};
+use serde::Deserialize;
 use std::path::{Path, PathBuf};
-use toml::Spanned;
-use toml::de::DeTable;
+use toml::de::{DeTable, Deserializer};
+use toml::{Spanned, Table};
 use vibrissa::contact::{Chain, ContactError, StopReason};
 use vibrissa::rod::AnyRod;
 use vibrissa::{ClampPath, Composite, Pose, Rod, State, Sweep};
@@ -58,6 +60,7 @@ pub struct Scene {
     pub warnings: Vec<String>,
     /// The file of the scene, and those that it names.
     pub files: Vec<PathBuf>,
+    tables: Table,
     source: SourceText,
 }
 
@@ -98,11 +101,20 @@ impl Scene {
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
         let directory = file.parent().unwrap_or(file);
         let source = SourceText::new(file, text);
-        let read =
-            |table: Spanned<DeTable<'_>>| check::scene(stem(file), source, document::document(table)?, directory);
-        let (mut scene, warnings) = toml_file::parse_angles(file, text, read)?;
+        let read = |table: Spanned<DeTable<'_>>| {
+            let values = table.clone();
+            let document = document::document(table)?;
+            let tables = Table::deserialize(Deserializer::from(values))?;
+            check::scene(stem(file), source, document, tables, directory)
+        };
+        let (mut scene, warnings) = toml_file::parse_angles(file, text, schema::scene, read)?;
         scene.warnings.extend(warnings);
         Ok(scene)
+    }
+
+    /// The file as a table: its quantities are numbers in SI units, angles in degrees, whatever units they are written with.
+    pub fn tables(&self) -> &Table {
+        &self.tables
     }
 
     /// The rod, if it is uniform and straight at rest, on a rigid clamp. `instead` ends the message where it is not: what the user may do

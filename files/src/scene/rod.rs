@@ -1,7 +1,7 @@
 //! A rod on its own.
 
 use super::document::{CalibrationTable, ClampTable, RodTable};
-use super::rod_table;
+use super::{rod_table, schema};
 use crate::toml_file::Fault;
 use crate::{SceneError, toml_file};
 use serde::Deserialize;
@@ -67,7 +67,7 @@ pub fn read_filmed_rod(file: &Path, length: Option<f64>) -> Result<FilmedRod, Sc
 }
 
 fn parse_filmed(file: &Path, text: &str, length: Option<f64>) -> Result<FilmedRod, SceneError> {
-    toml_file::parse(file, text, |table| {
+    toml_file::parse_quantities(file, text, schema::filmed_rod, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
         let (rod, is_stiffness_known) = rod_table::filmed_rod(&file.rod, file.clamp.as_ref(), length)?;
         Ok(FilmedRod { rod, is_stiffness_known })
@@ -81,7 +81,9 @@ mod tests {
 
     fn parse(text: &str) -> Result<Rod, SceneError> {
         let rod_of = |file: RodFile| file.uniform("take another");
-        toml_file::parse("rod.toml".as_ref(), text, |table| rod_of(RodFile::deserialize(Deserializer::from(table))?))
+        toml_file::parse_quantities("rod.toml".as_ref(), text, schema::rod_file, |table| {
+            rod_of(RodFile::deserialize(Deserializer::from(table))?)
+        })
     }
 
     #[test]
@@ -145,6 +147,19 @@ mod tests {
     }
 
     #[test]
+    fn a_rod_in_units() {
+        let rod = parse("[rod]\nlength = \"40 mm\"\ndiameter = \"0.2 mm\"\nyoungs_modulus = \"3 GPa\"\n").unwrap();
+        assert_eq!(rod.length(), 0.04);
+        let text = "[rod]\nlength = \"40 mm\"\ndiameter = [[0, \"0.2 mm\"], [\"40 mm\", \"20 um\"]]\n";
+        let filmed = parse_filmed("rod.toml".as_ref(), text, None).unwrap();
+        assert!(!filmed.is_stiffness_known && filmed.rod.length() == 0.04);
+        let error = parse("[rod]\nlength = \"40 kg\"\nbending_stiffness = 1").unwrap_err().to_string();
+        let expected =
+            "rod.toml:2:10: rod.length: length is \"40 kg\": `kgf` is a unit of force, expected one of length: m, mm";
+        assert!(error.starts_with(expected), "{error}");
+    }
+
+    #[test]
     fn no_rod() {
         for (text, message) in [
             ("", "rod.toml:1:1: missing field `rod`"),
@@ -154,7 +169,10 @@ mod tests {
                 "[rod]\nlength = -1\nbending_stiffness = 1",
                 "rod.toml:2:10: rod.length: length is -1, expected a positive",
             ),
-            ("[rod]\nlength = \"m\"", "rod.toml:2:10: rod.length: the value is the text \"m\", expected a number"),
+            (
+                "[rod]\nlength = \"m\"\nbending_stiffness = 1",
+                "rod.toml:2:10: rod.length: the value is the text \"m\", expected a number",
+            ),
         ] {
             let error = parse(text).unwrap_err().to_string();
             assert!(error.starts_with(message), "{error}");

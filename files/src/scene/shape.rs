@@ -88,6 +88,7 @@ impl PieceTable {
     /// What is wrong with an arc whose radius is below `least`, m.
     pub fn too_thin(&self, least: f64) -> Option<Fault> {
         let (name, radius) = match &self.shape {
+            Shape::Circle(fields) => ("radius", fields.radius),
             Shape::Arc(fields) => ("radius", fields.radius),
             Shape::Ellipse(fields) => ("radii", fields.radii[0].min(fields.radii[1])),
             _ => return None,
@@ -95,6 +96,27 @@ impl PieceTable {
         let field = self.fields.iter().find(|field| field.name == name)?;
         let message = format!("the radius is {radius} m, expected at least {least:.1e} m, 1e-12 lengths of the rod");
         (radius < least).then(|| Fault::new(field.span.clone(), message))
+    }
+
+    /// The point of the shape farthest from the origin of the pieces, of those that its fields give: its field, and the distance, m; of circles and
+    /// ellipses the nearest point of the curve.
+    pub fn farthest(&self) -> Option<(&'static str, Range<usize>, f64)> {
+        let size = |[x, y]: [f64; 2]| x.hypot(y);
+        let list = |points: &Option<Vec<[f64; 2]>>| points.iter().flatten().copied().map(size).fold(0.0, f64::max);
+        let (name, distance) = match &self.shape {
+            Shape::Parabola(fields) => ("vertex", size(fields.vertex)),
+            Shape::Line(fields) => [("from", size(fields.from)), ("to", size(fields.to))]
+                .into_iter()
+                .max_by(|one, other| one.1.total_cmp(&other.1))?,
+            Shape::Polygon(fields) => ("points", list(&fields.points)),
+            Shape::Spline(fields) => ("points", list(&fields.points)),
+            Shape::Circle(fields) => ("center", size(fields.center) - fields.radius),
+            Shape::Arc(fields) => ("center", size(fields.center) - fields.radius),
+            Shape::Ellipse(fields) => ("center", size(fields.center) - fields.radii[0].max(fields.radii[1])),
+            Shape::Svg(_) => return None,
+        };
+        let field = self.fields.iter().find(|field| field.name == name)?;
+        Some((name, field.span.clone(), distance))
     }
 
     /// Of how many pieces of contour it consists: 0 before [`contours`](Self::contours) has made them.

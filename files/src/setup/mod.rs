@@ -15,7 +15,8 @@ pub use calibration::{Gauges, SensorCalibration};
 pub use errors::SharedErrors;
 pub use recording::{RecordingSetup, RecordingTime};
 
-use crate::{SceneError, toml_file};
+use crate::SceneError;
+use crate::toml_file::{self, Quantities};
 use document::SetupDocument;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -120,7 +121,8 @@ impl Setup {
             let calibration = document.sensor.calibration.as_ref().map(|name| directory.join(name.get_ref()));
             Ok((check::setup(&document, &tree, directory)?, calibration))
         };
-        let ((setup, calibration), warnings) = toml_file::parse_angles(file, text, read)?;
+        let ((setup, calibration), warnings) =
+            toml_file::parse_angles(file, text, |_| Ok(Quantities::default()), read)?;
         let files = std::iter::once(file.to_path_buf()).chain(calibration).collect();
         Ok(Self { warnings, files, ..setup })
     }

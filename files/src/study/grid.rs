@@ -78,8 +78,7 @@ impl Study {
         })?;
         let of_scene = toml_file::text("the scene", &scene)?;
         // told with its place there, before anything is changed
-        Scene::parse(&scene, &of_scene)?;
-        let table = toml_file::parse(&scene, &of_scene, |table| Ok(Table::deserialize(Deserializer::from(table))?))?;
+        let table = Scene::parse(&scene, &of_scene)?.tables().clone();
         let study = Self { scene, texts: [text, of_scene], table, parameters };
         study.check_fields(file)?;
         Ok(study)

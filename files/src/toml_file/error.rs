@@ -90,12 +90,19 @@ impl Fault {
         Self { span, message: message::with_short_numbers(message.into()) }
     }
 
-    /// The same, with what is `said` of another place, unless it is the same one.
-    pub fn beside(self, other: &Self, said: &str) -> Self {
-        if self.span == other.span {
-            return self;
-        }
-        let message = format!("{}; besides, {said}", self.message);
+    /// What is wrong, without the place.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// Where it is.
+    pub fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// The same, with more in the message.
+    pub fn and(self, more: &str) -> Self {
+        let message = format!("{}{more}", self.message);
         Self { message, ..self }
     }
 
@@ -117,7 +124,10 @@ impl Fault {
         if !fault.message.starts_with("string values must be quoted") {
             return fault;
         }
-        let message = format!("the value is `{written}`, expected a number without a unit, or a text in quotes");
+        let message = format!(
+            "the value is `{written}`, expected a number, or a text in quotes: \"{}\"",
+            written.split('#').next().unwrap_or_default().trim()
+        );
         Self { message, ..fault }
     }
 

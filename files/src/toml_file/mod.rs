@@ -3,11 +3,13 @@
 mod error;
 mod message;
 mod number;
+mod quantity;
 
 pub(crate) use error::{Fault, SourceText, place_of};
 pub use error::{Invalid, SceneError};
 pub(crate) use message::meant;
-pub(crate) use number::{comma_in_list, number};
+pub(crate) use number::{comma_in_list, number, written_number};
+pub(crate) use quantity::Quantities;
 
 use std::path::Path;
 use toml::Spanned;
@@ -34,18 +36,32 @@ pub(crate) fn parse<T>(
     text: &str,
     check: impl FnOnce(Spanned<DeTable<'_>>) -> Result<T, Fault>,
 ) -> Result<T, SceneError> {
-    parse_angles(file, text, check).map(|(checked, _)| checked)
+    parse_angles(file, text, |_| Ok(Quantities::default()), check).map(|(checked, _)| checked)
+}
+
+/// The same of a text in which numbers may have units: `quantities` finds them.
+pub(crate) fn parse_quantities<T>(
+    file: &Path,
+    text: &str,
+    quantities: impl FnOnce(&Spanned<DeTable<'_>>) -> Result<Quantities, Fault>,
+    check: impl FnOnce(Spanned<DeTable<'_>>) -> Result<T, Fault>,
+) -> Result<T, SceneError> {
+    parse_angles(file, text, quantities, check).map(|(checked, _)| checked)
 }
 
 /// The same, with a warning for each angle that looks like radians or turns the clamp more than twice.
 pub(crate) fn parse_angles<T>(
     file: &Path,
     text: &str,
+    quantities: impl FnOnce(&Spanned<DeTable<'_>>) -> Result<Quantities, Fault>,
     check: impl FnOnce(Spanned<DeTable<'_>>) -> Result<T, Fault>,
 ) -> Result<(T, Vec<String>), SceneError> {
     let table = DeTable::parse(text).map_err(|error| Fault::of_syntax(error, text).in_text(file, text, None))?;
     let in_text = |fault: Fault| fault.in_text(file, text, Some(table.get_ref()));
-    let checked = check(table.clone()).map_err(in_text)?;
+    let quantities = quantities(&table).map_err(in_text)?;
+    let mut numbers = table.clone();
+    quantities.put(numbers.get_mut());
+    let checked = check(numbers).map_err(in_text)?;
     let warnings = number::suspicious(table.get_ref(), text).into_iter().map(|fault| in_text(fault).to_string());
     Ok((checked, warnings.collect()))
 }

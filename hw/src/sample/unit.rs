@@ -1,6 +1,9 @@
 //! Units by name.
 
-use Dimension::{Angle, Force, Length, Temperature, Time, Torque};
+use Dimension::{
+    Angle, BendingStiffness, Curvature, Force, Length, RotationalStiffness, Stiffness, Stress, Temperature, Time,
+    Torque,
+};
 use core::f64::consts::PI;
 
 /// What a unit measures.
@@ -18,6 +21,16 @@ pub enum Dimension {
     Time,
     /// Degrees Celsius.
     Temperature,
+    /// Stresses and moduli. In SI: Pa.
+    Stress,
+    /// Curvatures, and coefficients of squares. In SI: 1/m.
+    Curvature,
+    /// In SI: N m^2.
+    BendingStiffness,
+    /// Of a spring. In SI: N/m.
+    Stiffness,
+    /// Of a spring against rotation. In SI: N m/rad.
+    RotationalStiffness,
 }
 
 /// A unit of one of the accepted spellings: `N`, `mN`, `N m`, `N-mm`, `lbf in`, `mm`, `deg`, `ms` and more. Blanks, dots,
@@ -70,7 +83,7 @@ const POUND: f64 = 4.448_221_615_260_5;
 const GRAVITY: f64 = 9.806_65;
 const INCH: f64 = 0.0254;
 
-const UNITS: [Row; 36] = [
+const UNITS: [Row; 54] = [
     ("N", &["Newton", "newton", "Newtons", "newtons"], Force, 1.0),
     ("mN", &[], Force, 1e-3),
     ("uN", &["µN", "μN"], Force, 1e-6),
@@ -107,6 +120,24 @@ const UNITS: [Row; 36] = [
     ("min", &[], Time, 60.0),
     ("h", &[], Time, 3600.0),
     ("degC", &["°C", "C", "Celsius"], Temperature, 1.0),
+    ("Pa", &["N/m2", "N/m^2", "N/m²"], Stress, 1.0),
+    ("kPa", &[], Stress, 1e3),
+    ("MPa", &["N/mm2", "N/mm^2", "N/mm²"], Stress, 1e6),
+    ("GPa", &["kN/mm2", "kN/mm^2", "kN/mm²"], Stress, 1e9),
+    ("psi", &[], Stress, POUND / (INCH * INCH)),
+    ("1/m", &["m^1", "/m"], Curvature, 1.0),
+    ("1/mm", &["mm^1", "/mm"], Curvature, 1e3),
+    ("1/cm", &["cm^1", "/cm"], Curvature, 1e2),
+    ("N m^2", &["Nm2", "Nm²"], BendingStiffness, 1.0),
+    ("mN m^2", &["mNm2", "mNm²"], BendingStiffness, 1e-3),
+    ("uN m^2", &["uNm2", "µNm²", "μNm²", "µNm^2", "μNm^2"], BendingStiffness, 1e-6),
+    ("N mm^2", &["Nmm2", "Nmm²"], BendingStiffness, 1e-6),
+    ("N/m", &[], Stiffness, 1.0),
+    ("N/mm", &["kN/m"], Stiffness, 1e3),
+    ("mN/m", &["uN/mm", "µN/mm", "μN/mm"], Stiffness, 1e-3),
+    ("N m/rad", &[], RotationalStiffness, 1.0),
+    ("mN m/rad", &["Nmm/rad"], RotationalStiffness, 1e-3),
+    ("N m/deg", &["Nm/°"], RotationalStiffness, 180.0 / PI),
 ];
 
 impl Unit {
@@ -144,6 +175,11 @@ impl core::fmt::Display for Dimension {
             Angle => "angle",
             Time => "time",
             Temperature => "temperature",
+            Stress => "stress",
+            Curvature => "curvature",
+            BendingStiffness => "bending stiffness",
+            Stiffness => "stiffness of a spring",
+            RotationalStiffness => "stiffness against rotation",
         })
     }
 }
@@ -213,6 +249,9 @@ mod tests {
             (" lb-in ", "lbf in"),
             ("µs", "us"),
             ("°", "deg"),
+            ("N/mm^2", "MPa"),
+            ("N m^2", "N m^2"),
+            ("Nm/rad", "N m/rad"),
         ] {
             assert_eq!(Unit::find(text).map(|unit| unit.name), Some(name), "{text}");
         }

@@ -108,6 +108,39 @@ impl PolygonFields {
 }
 
 fields! {
+    /// A whole circle, counterclockwise: the solid is inside.
+    CircleFields {
+        /// The centre.
+        #[serde(deserialize_with = "pair")]
+        center: Point => Length,
+        /// The radius.
+        radius: f64 => Length,
+    }
+}
+
+impl CircleFields {
+    pub(super) fn pieces(&self, _: &Path) -> Result<Pieces, ShapeError> {
+        let fields = [("center", &self.center[..]), ("radius", &[self.radius])];
+        CircularArc::new(self.center, self.radius, 0.0, TURN.to_radians())
+            .map(one)
+            .map_err(|error| ShapeError::blaming(error, &fields, Some("radius")))
+    }
+}
+
+/// The angles of an arc: a whole turn from 0, counterclockwise, unless both are given.
+fn angles(from: Option<f64>, to: Option<f64>) -> Result<[f64; 2], ShapeError> {
+    match (from, to) {
+        (Some(from), Some(to)) => Ok([from, to]),
+        (None, None) => Ok([0.0, TURN]),
+        (Some(_), None) => Err(ShapeError::says("from_angle", WITHOUT.replace('*', "to_angle"))),
+        (None, Some(_)) => Err(ShapeError::says("to_angle", WITHOUT.replace('*', "from_angle"))),
+    }
+}
+
+/// Said of one angle of an arc without the other, `*`.
+const WITHOUT: &str = "given without *, expected both, or neither for a closed curve";
+
+fields! {
     /// An arc of a circle. Counterclockwise (`to_angle` larger) the solid is inside, clockwise outside.
     ArcFields {
         /// The centre.
@@ -115,25 +148,24 @@ fields! {
         center: Point => Length,
         /// The radius.
         radius: f64 => Length,
-        /// Polar angle where it starts.
-        from_angle: f64 => Degrees,
+        /// Polar angle where it starts; a whole circle unless both are given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        from_angle: Option<f64> => Degrees,
         /// Polar angle where it ends.
-        to_angle: f64 => Degrees,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        to_angle: Option<f64> => Degrees,
     }
 }
 
 impl ArcFields {
     pub(super) fn pieces(&self, _: &Path) -> Result<Pieces, ShapeError> {
         let Self { center, radius, from_angle, to_angle } = self;
-        let fields = [
-            ("center", &center[..]),
-            ("radius", &[*radius]),
-            ("from_angle", &[*from_angle]),
-            ("to_angle", &[*to_angle]),
-        ];
+        let [from_angle, to_angle] = angles(*from_angle, *to_angle)?;
+        let fields =
+            [("center", &center[..]), ("radius", &[*radius]), ("from_angle", &[from_angle]), ("to_angle", &[to_angle])];
         CircularArc::new(*center, *radius, from_angle.to_radians(), to_angle.to_radians())
             .map(one)
-            .map_err(|error| arc(error, &fields, "radius", [*from_angle, *to_angle]))
+            .map_err(|error| arc(error, &fields, "radius", [from_angle, to_angle]))
     }
 }
 
@@ -149,27 +181,30 @@ fields! {
         /// The angle of its first axis; 0 unless given.
         #[serde(default)]
         rotation: f64 => Degrees,
-        /// Eccentric angle where it starts: the polar angle on the circle of which it is the picture.
-        from_angle: f64 => Degrees,
+        /// Eccentric angle where it starts: the polar angle on the circle of which it is the picture. A whole ellipse unless both are given.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        from_angle: Option<f64> => Degrees,
         /// Eccentric angle where it ends.
-        to_angle: f64 => Degrees,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        to_angle: Option<f64> => Degrees,
     }
 }
 
 impl EllipseFields {
     pub(super) fn pieces(&self, _: &Path) -> Result<Pieces, ShapeError> {
         let Self { center, radii, rotation, from_angle, to_angle } = self;
+        let [from_angle, to_angle] = angles(*from_angle, *to_angle)?;
         let fields = [
             ("center", &center[..]),
             ("radii", &radii[..]),
             ("rotation", &[*rotation]),
-            ("from_angle", &[*from_angle]),
-            ("to_angle", &[*to_angle]),
+            ("from_angle", &[from_angle]),
+            ("to_angle", &[to_angle]),
         ];
-        let [rotation, from, to] = [rotation, from_angle, to_angle].map(|angle| angle.to_radians());
+        let [rotation, from, to] = [*rotation, from_angle, to_angle].map(f64::to_radians);
         EllipticArc::new(*center, *radii, rotation, from, to)
             .map(one)
-            .map_err(|error| arc(error, &fields, "radii", [*from_angle, *to_angle]))
+            .map_err(|error| arc(error, &fields, "radii", [from_angle, to_angle]))
     }
 }
 

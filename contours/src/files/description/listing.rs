@@ -134,10 +134,10 @@ mod tests {
     fn the_list_is_that_of_the_shapes() {
         assert_eq!(Shape::ALL.iter().map(|shape| shape.name).collect::<Vec<_>>(), Shape::NAMES);
         let arc = Shape::ALL.iter().find(|shape| shape.name == "arc").unwrap();
-        assert_eq!(arc.meaning.trim(), "An arc of a circle.");
+        assert_eq!(arc.meaning.trim(), "An arc of a circle, or a whole one.");
         let names: Vec<&str> = arc.fields.iter().map(|field| field.name).collect();
         assert_eq!(names, ["center", "radius", "from_angle", "to_angle"]);
-        assert!(arc.fields.iter().all(|field| field.required));
+        assert_eq!(arc.fields.iter().map(|field| field.required).collect::<Vec<_>>(), [true, true, false, false]);
         assert_eq!((arc.fields[1].unit, arc.fields[2].unit), (FieldUnit::Length, FieldUnit::Degrees));
     }
 

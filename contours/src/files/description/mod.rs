@@ -7,7 +7,8 @@ mod fields;
 mod listing;
 
 pub use fields::{
-    ArcFields, EllipseFields, LineFields, ParabolaFields, PolygonFields, SplineEndField, SplineFields, SvgFields,
+    ArcFields, CircleFields, EllipseFields, LineFields, ParabolaFields, PolygonFields, SplineEndField, SplineFields,
+    SvgFields,
 };
 
 pub use listing::{FieldInfo, FieldUnit, ShapeInfo};
@@ -86,9 +87,11 @@ shapes! {
     "line" Line LineFields;
     /// Straight edges from point to point.
     "polygon" Polygon PolygonFields;
-    /// An arc of a circle.
+    /// A circle, the solid inside.
+    "circle" Circle CircleFields;
+    /// An arc of a circle, or a whole one.
     "arc" Arc ArcFields;
-    /// An arc of an ellipse.
+    /// An arc of an ellipse, or a whole one.
     "ellipse" Ellipse EllipseFields;
     /// A smooth curve through points, or near them.
     "spline" Spline SplineFields;
@@ -122,6 +125,8 @@ mod tests {
         for json in [
             r#"{"shape": "parabola", "vertex": [0, 1], "coefficient": 5, "to_x": 2}"#,
             r#"{"shape": "polygon", "points": [[0, 0], [1, 0], [0, 1]]}"#,
+            r#"{"shape": "circle", "center": [0, 1], "radius": 2}"#,
+            r#"{"shape": "arc", "center": [0, 1], "radius": 2}"#,
             r#"{"shape": "polygon", "file": "points.csv", "closed": false}"#,
             r#"{"shape": "ellipse", "center": [0, 0], "radii": [2, 1], "from_angle": 0, "to_angle": 360}"#,
             r#"{"shape": "spline", "file": "points.csv", "end": "clamped", "from_angle": 3}"#,
@@ -132,6 +137,29 @@ mod tests {
             assert_eq!(serde_json::from_str::<Shape>(&text).unwrap(), shape, "{text}");
             assert!(Shape::NAMES.iter().any(|name| text.contains(name)));
         }
+    }
+
+    #[test]
+    fn a_circle_is_an_arc_and_an_ellipse_without_angles() {
+        let directory = "".as_ref();
+        for fields in [
+            r#""circle", "center": [1, 2], "radius": 2"#,
+            r#""arc", "center": [1, 2], "radius": 2"#,
+            r#""ellipse", "center": [1, 2], "radii": [2, 2]"#,
+        ] {
+            let circle =
+                crate::Composite::new(shape(&format!("{{\"shape\": {fields}}}")).pieces(directory).unwrap()).unwrap();
+            assert!(circle.is_closed() && !circle.is_cavity(), "{fields}");
+            assert!((circle.gap(1.0, 5.0) - 1.0).abs() < 1e-14 && circle.gap(1.0, 2.5) < 0.0, "{fields}");
+        }
+        let half = shape(r#"{"shape": "arc", "center": [0, 1], "radius": 2, "to_angle": 9}"#);
+        let error = half.pieces(directory).unwrap_err();
+        assert_eq!(
+            (error.field, error.to_string().as_str()),
+            (Some("to_angle"), "given without from_angle, expected both, or neither for a closed curve")
+        );
+        let error = shape(r#"{"shape": "circle", "center": [0, 1], "radius": -2}"#).pieces(directory).unwrap_err();
+        assert_eq!(error.field, Some("radius"));
     }
 
     #[test]

@@ -180,6 +180,11 @@ pub(super) fn si(dimension: Dimension) -> &'static str {
         Angle => "rad",
         Time => "s",
         Temperature => "degC",
+        Dimension::Stress => "Pa",
+        Dimension::Curvature => "1/m",
+        Dimension::BendingStiffness => "N m^2",
+        Dimension::Stiffness => "N/m",
+        Dimension::RotationalStiffness => "N m/rad",
     }
 }
 
