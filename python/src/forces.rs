@@ -33,7 +33,9 @@ const FRAME: &[Column<FrameRow>] = &[
     Column { name: "frame", get: Get::Int(|row| row.0) },
     Column {
         name: "verdict",
-        get: Get::Text(|row| row.1.as_ref().map_or_else(|_| "fault".into(), |judged| judged.verdict.to_string().into())),
+        get: Get::Text(|row| {
+            row.1.as_ref().map_or_else(|_| "fault".into(), |judged| judged.verdict.to_string().into())
+        }),
     },
     Column { name: "contacts", get: Get::Int(|row| row.1.as_ref().map_or(0, |judged| judged.contacts.len() as i64)) },
     Column { name: "s", get: Get::Float(|row| first(row, |contact| contact.s)) },
@@ -140,8 +142,10 @@ impl PyForces {
     /// ``x``, ``y`` (m), ``force`` (N), ``chi2``.
     #[getter]
     fn family<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let rows: Vec<MemberRow> =
-            self.judged().flat_map(|(frame, judged)| judged.family.iter().map(move |member| (frame, *member))).collect();
+        let rows: Vec<MemberRow> = self
+            .judged()
+            .flat_map(|(frame, judged)| judged.family.iter().map(move |member| (frame, *member)))
+            .collect();
         structured(py, MEMBER, rows.iter())
     }
 
@@ -149,8 +153,11 @@ impl PyForces {
     #[getter]
     fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let none = [[f64::NAN; 6]; 6];
-        let all: Vec<f64> =
-            self.rows().flat_map(|(_, judged)| judged.as_ref().map_or(none, |judged| judged.covariance)).flatten().collect();
+        let all: Vec<f64> = self
+            .rows()
+            .flat_map(|(_, judged)| judged.as_ref().map_or(none, |judged| judged.covariance))
+            .flatten()
+            .collect();
         Ok(PyArray1::from_vec(py, all).reshape([self.found.frames.len(), 6, 6])?.into_any())
     }
 
