@@ -1,12 +1,15 @@
 //! How well samples in one frame agree with a single frictionless contact, and with the work of the clamp.
 
 use super::energy::bending_energy;
-use super::frame::{FEWEST, SIGMAS};
 use nalgebra::Matrix3;
 use vibrissa::reconstruct::single;
 use vibrissa::rod::Reactions;
 use vibrissa::{Rod, Sample};
 
+/// Standard deviations within which a reaction is noise.
+pub(super) const SIGMAS: f64 = 4.0;
+/// Fewest averages in contact.
+pub(super) const FEWEST: usize = 12;
 /// Averages over which energy and work are compared. Larger: less noise, fewer comparisons.
 const LAG: usize = 4;
 /// Error allowed in the length of the rod and, relative to m0z^2, in the phase criterion.
@@ -48,9 +51,7 @@ pub(super) fn agreement(
         .iter()
         .zip(samples)
         .map(|(touched, sample)| {
-            touched.as_ref().map_or(0.0, |touched| {
-                if touched.s.is_finite() { bending_energy(sample, stiffness, touched.s) } else { 0.0 }
-            })
+            touched.as_ref().and_then(|touched| bending_energy(sample, stiffness, touched.s)).unwrap_or(0.0)
         })
         .collect();
     let contact: Vec<bool> = found.iter().map(Option::is_some).collect();
@@ -61,7 +62,7 @@ pub(super) fn agreement(
 struct Touched {
     /// Where the moment vanishes; infinite where it does not.
     s: f64,
-    /// m0z^2 - 2 EI (f0y sin phi0 + f0x cos phi0), and what noise and rod may make of it.
+    /// The phase criterion, N^2 m^2, and how much noise and rod may change it.
     excess: f64,
     slack: f64,
     /// Relative error of the place that is allowed.
@@ -71,13 +72,12 @@ struct Touched {
 impl Touched {
     fn of(rod: &Rod, sample: &Sample, noise: [f64; 2], stiffness: f64) -> Self {
         let Reactions { f0x, f0y, m0z } = sample.reactions;
-        let (sin, cos) = sample.pose.phi.sin_cos();
         let touch = single(rod, sample.pose, sample.reactions, &Matrix3::zeros());
         let s = touch.map_or_else(|none| none.touch().map_or(f64::INFINITY, |touch| touch.s), |touch| touch.s);
         let relative = |noise: f64, value: f64| SIGMAS * noise / value.abs().max(f64::MIN_POSITIVE);
         Self {
             s,
-            excess: m0z * m0z - 2.0 * stiffness * (f0y * sin + f0x * cos),
+            excess: sample.reactions.phase_criterion(sample.pose.phi, stiffness),
             slack: SLACK * m0z * m0z + SIGMAS * (2.0 * m0z.abs() * noise[1] + 2.8 * stiffness * noise[0]),
             reach: (SLACK + relative(noise[1], m0z) + relative(noise[0], f0x.hypot(f0y))).min(WIDEST),
         }

@@ -6,7 +6,7 @@
 //! work of the clamp does, which must be the change of the elastic energy. Without a rod the stiffness is that of the line of tangential
 //! contacts, and the length that of the contacts off this line.
 
-use super::agreement::agreement;
+use super::agreement::{FEWEST, SIGMAS, agreement};
 use vibrissa::Rod;
 use vibrissa::Sample;
 use vibrissa::reconstruct::noise_estimate::estimate;
@@ -15,10 +15,6 @@ use vibrissa::rod::Reactions;
 
 /// Most averages of consecutive samples. More: more time; fewer: short phases are averaged out.
 const MOST: usize = 300;
-/// Standard deviations within which a reaction is noise.
-pub(super) const SIGMAS: f64 = 4.0;
-/// Fewest averages in contact.
-pub(super) const FEWEST: usize = 12;
 /// Share of the averages that satisfy one of the conditions in the preferred frame, at least.
 pub(super) const SHARE: f64 = 0.7;
 /// Difference of the scores of the best two frames, at least. Scores are at most 3.

@@ -3,7 +3,7 @@
 use super::error::LiveError;
 use super::feed::{Fed, Miss, Sensor};
 use super::motion::Motion;
-use super::session::LiveScan;
+use super::scan::LiveScan;
 use super::summary::LiveReport;
 use crate::SensorCalibration;
 use vibrissa::hw::{

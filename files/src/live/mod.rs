@@ -1,8 +1,8 @@
 //! A sensor, read and reconstructed as it measures.
 //!
 //! `address` and `stage` are the arguments of the command line for the sensor and the clamp. `connect` opens a [`Sensor`], or `played` a
-//! recording; `motion` is the motion of the clamp. `head` records the free rod for the tare and the noise. `session` is the
-//! scan from the first sample to the last, which checks at its end whether it can be of the rod; `losses` counts what no counter tells of,
+//! recording; `motion` is the motion of the clamp. `head` records the free rod for the tare and the noise. `scan` is what
+//! a scan is made with, `session` the scan from the first sample to the last, `physics` the check at its end whether it can be of the rod; `losses` counts what no counter tells of,
 //! `record` writes its files and `summary` its report.
 //! `whole` takes a recording at once: reactions as they are, raw values and wrenches by the way of a live scan.
 
@@ -14,8 +14,10 @@ mod head;
 mod latency;
 mod losses;
 mod motion;
+mod physics;
 mod played;
 mod record;
+mod scan;
 mod session;
 mod stage;
 mod summary;
@@ -25,6 +27,6 @@ pub use address::{AddressError, SensorAddress};
 pub use error::LiveError;
 pub use feed::{Fed, Feed, Miss, Sensor};
 pub use latency::Latency;
-pub use session::LiveScan;
+pub use scan::LiveScan;
 pub use stage::{StageSpec, StageSpecError};
 pub use summary::{End, LiveReport};

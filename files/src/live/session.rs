@@ -3,39 +3,15 @@
 use super::error::LiveError;
 use super::feed::{Fed, Miss, Sensor};
 use super::head::{Head, PATIENCE, head, rounding};
+use super::physics::Physics;
 use super::record::{LiveFiles, check};
-use super::stage::StageSpec;
+use super::scan::LiveScan;
 use super::summary::{End, LiveReport};
-use crate::{ReadOptions, Setup};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use vibrissa::hw::{ChainError, ReactionSample, StageError};
-use vibrissa::reconstruct::{
-    Budget, Calibration, Finding, Known, LiveSession, LiveSettings, Plausibility, Reading, ReconstructError,
-    plausibility, reconstruct_passes,
-};
+use vibrissa::reconstruct::{LiveSession, LiveSettings, Reading, ReconstructError};
 use vibrissa::rod::Reactions;
-use vibrissa::{ClampPath, Label, Rod, Sample, Settings};
-
-/// A scan to be made with a sensor.
-#[derive(Clone, Debug)]
-pub struct LiveScan {
-    /// The rod.
-    pub rod: Rod,
-    /// How large the errors may be that all samples share.
-    pub budget: Budget,
-    /// What a calibration says of them.
-    pub known: Known,
-    /// How the sensor is set up.
-    pub setup: Setup,
-    /// How the clamp moves; none where the samples contain its poses.
-    pub stage: Option<StageSpec>,
-    /// Its path, which a constant speed needs.
-    pub path: Option<ClampPath>,
-    /// How the table of a stage is written.
-    pub read: ReadOptions,
-    /// Files that are read, which must not be overwritten.
-    pub inputs: Vec<PathBuf>,
-}
+use vibrissa::{Label, Sample};
 
 /// Seconds between two lines of progress.
 const TICK: f64 = 1.0;
@@ -213,59 +189,5 @@ impl Recorded<'_> {
     fn silent(&mut self, text: &str) -> bool {
         (self.tell)(&format!("warning: {text}"));
         self.report.silent() as f64 >= PATIENCE
-    }
-}
-
-/// Most samples that are kept for the check.
-const MOST: usize = 4000;
-
-/// Samples of a scan, evenly spaced, for a check by the physics at its end.
-#[derive(Clone, Debug)]
-struct Physics {
-    samples: Vec<Sample>,
-    /// Every so many samples one is kept, and the number of those since the last one.
-    stride: usize,
-    passed: usize,
-}
-
-impl Physics {
-    pub fn new() -> Self {
-        Self { samples: Vec::with_capacity(MOST), stride: 1, passed: 0 }
-    }
-
-    pub fn push(&mut self, sample: Sample) {
-        self.passed += 1;
-        if self.passed < self.stride {
-            return;
-        }
-        self.passed = 0;
-        if self.samples.len() == MOST {
-            let mut number = 0;
-            self.samples.retain(|_| {
-                number += 1;
-                number % 2 == 0
-            });
-            self.stride *= 2;
-        }
-        self.samples.push(sample);
-    }
-
-    /// The misfits in words: of the samples as they are or, where the scan told errors that all of them share, without these.
-    pub fn misfits(&self, rod: &Rod, calibration: Option<&Calibration>) -> Vec<String> {
-        let mut check = plausibility(rod, &self.samples);
-        if let Some(calibration) = calibration.filter(|calibration| !check.fits() && calibration.is_applied()) {
-            check = plausibility(&calibration.rod(rod), &calibration.corrected(rod, &self.samples));
-        }
-        let Plausibility { findings, .. } = check;
-        findings.iter().filter(|finding| finding.is_misfit()).map(ToString::to_string).collect()
-    }
-
-    /// Friction, which a live scan takes for none, in words; empty where a reconstruction of the samples sees none.
-    pub fn friction(&self, rod: &Rod, budget: Budget, known: Known) -> Vec<String> {
-        let settings = Settings { budget: Some(budget), known, ..Settings::default() };
-        let found =
-            reconstruct_passes(rod, &self.samples, &settings).map_or_else(|_| Vec::new(), |found| found.findings());
-        let friction = found.iter().filter(|finding| matches!(finding, Finding::Friction { .. }));
-        friction.map(|finding| format!("{finding}: live answers are without, and wrong")).collect()
     }
 }

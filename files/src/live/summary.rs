@@ -2,7 +2,7 @@
 
 use super::latency::Latency;
 use super::losses::Losses;
-use super::session::LiveScan;
+use super::scan::LiveScan;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -4,7 +4,7 @@ use super::address::SensorAddress;
 use super::error::LiveError;
 use super::feed::{Fed, Feed, Miss, Sensor};
 use super::head::{Chain, Head, head};
-use super::session::LiveScan;
+use super::scan::LiveScan;
 use super::summary::LiveReport;
 use crate::{Place, Recording, RecordingError, Row, RowFault, RowProblem};
 use std::path::Path;

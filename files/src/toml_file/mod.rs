@@ -1,5 +1,6 @@
 //! TOML files: read, turned into something, and complained about with the place of what is wrong.
 
+mod angle;
 mod error;
 mod message;
 mod number;
@@ -62,6 +63,6 @@ pub(crate) fn parse_angles<T>(
     let mut numbers = table.clone();
     quantities.put(numbers.get_mut());
     let checked = check(numbers).map_err(in_text)?;
-    let warnings = number::suspicious(table.get_ref(), text).into_iter().map(|fault| in_text(fault).to_string());
+    let warnings = angle::suspicious(table.get_ref(), text).into_iter().map(|fault| in_text(fault).to_string());
     Ok((checked, warnings.collect()))
 }
