@@ -7,6 +7,7 @@ use super::physics::unit_question;
 use super::proposal::{Proposal, name_of};
 use super::report::{Certainty, InspectedColumn, InspectedFile, Question};
 use super::rows::rows;
+use super::shell_word::quoted;
 use super::values::{channel, poses};
 use crate::ReadOptions;
 use std::path::{Path, PathBuf};
@@ -108,7 +109,7 @@ impl Look {
         self.table = Some((table, guess));
     }
 
-    /// The options for the columns, and what must be told of them.
+    /// The options for the columns, and the questions that remain.
     fn propose(&mut self, table: &Table, guess: &TableGuess, read: &ReadOptions) {
         let is_given = |name: &str| read.options.units.iter().any(|(column, _)| column == name);
         for column in guess.columns.iter().filter(|column| column.role.is_some()) {
@@ -198,16 +199,6 @@ fn ask_unit(column: &ColumnGuess, name: &str, dimension: Dimension) -> Question 
     }
 }
 
-/// A word of a command line as a shell takes it.
-pub(super) fn quoted(word: &str) -> String {
-    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./:=,+@%".contains(letter);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
-}
-
 pub(super) fn certainty(sureness: Sureness) -> Certainty {
     match sureness {
         Sureness::Sure => Certainty::Sure,
@@ -219,7 +210,7 @@ pub(super) fn certainty(sureness: Sureness) -> Certainty {
 /// The meanings of columns of points.
 fn of_frames(file: &mut InspectedFile, guess: &TableGuess) {
     for (described, column) in file.columns.iter_mut().zip(&guess.columns) {
-        // a unit of x and y is an option of the command, and told apart
+        // the unit of x and y is an option of the command, treated separately
         (described.unit, described.unit_why) = (None, String::new());
         described.unit_certainty = Certainty::Sure;
         described.meaning = match (column.quantity, column.axis) {

@@ -2,7 +2,7 @@
 //!
 //! `look` describes one file: `layout` how it is written, `rows` its times and cells, `motion` the path of the clamp, `binary` files of
 //! other programs. `physics` finds axes, signs and units (`frame`, `agreement`, `energy`). `commands` puts files together and tries the readers with
-//! the options of `proposal` and the `setup_text`.
+//! the options of `proposal` and the `setup_text`. `shell_word` quotes words of commands.
 
 mod agreement;
 mod binary;
@@ -17,9 +17,11 @@ mod proposal;
 mod report;
 mod rows;
 mod setup_text;
+mod shell_word;
 mod values;
 
 pub use report::{Certainty, Fact, InspectFault, InspectedColumn, InspectedFile, Inspection, Question, ReadCommand};
+pub use shell_word::quoted;
 
 use crate::{ReadOptions, Setup};
 use look::Look;
@@ -46,11 +48,6 @@ pub struct InspectOptions {
     pub setup: Option<(PathBuf, Setup)>,
     /// Where a setup is to be written.
     pub write_setup: Option<PathBuf>,
-}
-
-/// A word of a command line as a shell takes it: in quotes where it needs them.
-pub fn quoted(word: &str) -> String {
-    look::quoted(word)
 }
 
 /// Looks at files.
@@ -95,7 +92,7 @@ mod tests {
         }
     }
 
-    /// Forces of chance have no frame that is told.
+    /// No frame is decided for random forces.
     #[test]
     fn chance_has_no_frame() {
         for seed in 1..5_u32 {

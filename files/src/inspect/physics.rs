@@ -6,7 +6,7 @@ use super::report::{Certainty, InspectedFile, Question};
 use vibrissa::hw::recording::Role;
 use vibrissa::{Rod, Sample};
 
-/// Relative difference of the stiffness that is told.
+/// Relative difference between the stiffness by the recording and that of the rod from which on it is reported.
 const STIFFNESS: f64 = 0.03;
 
 /// The columns of the reactions: names, units, whether these are known, whether the names stand for reactions on the rod.
@@ -57,7 +57,7 @@ pub(super) fn physics(
                 );
                 file.fact("offset", found);
             }
-            tell(file, verdict, names, rod.is_some());
+            report_frame(file, verdict, names, rod.is_some());
             if verdict.is_decided {
                 stiffness(file, verdict, rod);
             }
@@ -71,9 +71,9 @@ pub(super) fn physics(
     };
     let best = verdict.best;
     if rod.is_some() && !(known[0] && known[1]) {
-        // they are told by the physics now
-        let told: Vec<String> = names.iter().map(|name| unit_question(name)).collect();
-        file.questions.retain(|question| !told.iter().any(|told| question.text.starts_with(told)));
+        // the stiffness of the rod answers these questions
+        let answered: Vec<String> = names.iter().map(|name| unit_question(name)).collect();
+        file.questions.retain(|question| !answered.iter().any(|begin| question.text.starts_with(begin)));
     }
     if let Some(proposal) = proposal {
         options(file, proposal, columns, &verdict, rod.is_some());
@@ -96,7 +96,7 @@ pub(super) fn unit_question(name: &str) -> String {
     format!("in which unit is `{name}`?")
 }
 
-fn tell(file: &mut InspectedFile, verdict: &FrameVerdict, names: [&str; 3], has_rod: bool) {
+fn report_frame(file: &mut InspectedFile, verdict: &FrameVerdict, names: [&str; 3], has_rod: bool) {
     let FrameVerdict { best, second, is_decided, .. } = verdict;
     let of = if has_rod { "" } else { ", with stiffness and length as the recording suggests" };
     let agreement = format!(
@@ -178,9 +178,9 @@ fn options(
             proposal.set_column([Role::F0x, Role::F0y][meaning], name);
         }
         let is_force = meaning < 2;
-        let is_told = has_rod && !columns.is_written[column];
-        let told = unit_name(best.units[usize::from(!is_force)], is_force);
-        let Some(unit) = (if is_told { Some(told) } else { columns.units[column] }) else { continue };
+        let is_by_rod = has_rod && !columns.is_written[column];
+        let by_rod = unit_name(best.units[usize::from(!is_force)], is_force);
+        let Some(unit) = (if is_by_rod { Some(by_rod) } else { columns.units[column] }) else { continue };
         let is_turned = best.frame.turned[meaning] != columns.is_turned[column];
         // a column that is not what its own name says has no unit without a word
         let is_renamed = best.frame.swapped && is_force;
@@ -188,7 +188,7 @@ fn options(
         if let Some(described) = file.columns.get_mut(columns.columns[column]) {
             described.meaning = Some(["f0x", "f0y", "m0z"][meaning].to_owned());
             described.unit = Some(signed.clone());
-            if is_told && columns.units[column] != Some(told) {
+            if is_by_rod && columns.units[column] != Some(by_rod) {
                 described.unit_certainty = Certainty::Likely;
                 "the stiffness of the rod".clone_into(&mut described.unit_why);
             }

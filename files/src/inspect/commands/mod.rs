@@ -5,8 +5,9 @@ mod frames;
 mod reactions;
 mod sensor;
 
-use super::look::{Content, Look, quoted};
+use super::look::{Content, Look};
 use super::report::{InspectedFile, Question, ReadCommand};
+use super::shell_word::quoted;
 use super::{InspectOptions, RodInspected};
 use crate::{LiveScan, ReadOptions, Setup, StageSpec};
 use frames::frames;

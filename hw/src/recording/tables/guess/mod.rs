@@ -37,6 +37,16 @@ pub struct Basis {
     pub why: String,
 }
 
+impl Basis {
+    fn sure(why: impl Into<String>) -> Self {
+        Self { sureness: Sureness::Sure, why: why.into() }
+    }
+
+    fn of_name(name: &str) -> Self {
+        Self::sure(format!("the name `{name}`"))
+    }
+}
+
 /// What a column may mean.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnGuess {
@@ -104,7 +114,7 @@ pub fn guess(table: &Table, named: bool, map: &ColumnMap) -> TableGuess {
     let mut named = if named { by_names(table) } else { kind::by_order(&summaries) };
     for (named, heading) in named.iter_mut().zip(table.columns()) {
         if let Some((role, _)) = map.assigned().find(|(_, name)| heading.is(name)) {
-            let basis = Basis { sureness: Sureness::Sure, why: "it was given".to_owned() };
+            let basis = Basis::sure("it was given");
             *named = Named {
                 quantity: quantity_of(role),
                 axis: None,
@@ -134,7 +144,7 @@ fn by_names(table: &Table) -> Vec<Named> {
             quantity: words.map(|words| words.quantity).or_else(|| quantity_of(role)),
             axis: words.and_then(|words| words.axis),
             role: Some(role),
-            basis: Basis { sureness: Sureness::Sure, why: format!("the name `{}`", column.name) },
+            basis: Basis::of_name(&column.name),
             unit_in_name: None,
             is_given: false,
         };
@@ -143,12 +153,11 @@ fn by_names(table: &Table) -> Vec<Named> {
             return sure(role);
         }
         if is_channel(&column.name) {
-            let basis = Basis { sureness: Sureness::Sure, why: format!("the name `{}`", column.name) };
             return Named {
                 quantity: Some(Quantity::Raw),
                 axis: None,
                 role: None,
-                basis,
+                basis: Basis::of_name(&column.name),
                 unit_in_name: None,
                 is_given: false,
             };
@@ -207,37 +216,27 @@ fn column_guess(table: &Table, column: usize, named: Named, role: Option<Role>, 
         },
         (Some(quantity), _) if quantity.dimension().is_some() => match named.unit_in_name {
             Some(unit) if units::of_spelling(quantity, unit).is_some() => {
-                (Some(unit), Basis { sureness: Sureness::Sure, why: "it ends the name".to_owned() }, false)
+                (Some(unit), Basis::sure("it ends the name"), false)
             }
             _ => {
                 let guess = units::of_values(quantity, &values);
                 let own = quantity.dimension().map(si);
-                match (is_own, guess.unit) {
-                    // the name stands for SI, unless the values contradict
-                    (true, None) => {
-                        let why = format!("the name `{}` stands for it", heading.name);
-                        (own, Basis { sureness: Sureness::Sure, why }, true)
-                    }
-                    (true, Some(unit)) if Some(unit) == own => {
-                        let why = format!("the name `{}` stands for it", heading.name);
-                        (own, Basis { sureness: Sureness::Sure, why }, true)
-                    }
-                    _ => (guess.unit, guess.basis, false),
+                // the name stands for SI, unless the values contradict
+                if is_own && guess.unit.is_none_or(|unit| Some(unit) == own) {
+                    (own, Basis::sure(format!("the name `{}` stands for it", heading.name)), true)
+                } else {
+                    (guess.unit, guess.basis, false)
                 }
             }
         },
-        _ => (None, Basis { sureness: Sureness::Sure, why: String::new() }, true),
+        _ => (None, Basis::sure(""), true),
     };
     ColumnGuess {
         column,
         quantity: named.quantity,
         axis: named.axis,
         role,
-        meaning: if found.is_some() && !named.is_given {
-            Basis { sureness: Sureness::Sure, why: format!("the name `{}`", heading.name) }
-        } else {
-            named.basis
-        },
+        meaning: if found.is_some() && !named.is_given { Basis::of_name(&heading.name) } else { named.basis },
         unit,
         is_turned,
         unit_basis,

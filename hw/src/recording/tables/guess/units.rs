@@ -10,6 +10,8 @@ use std::f64::consts::TAU;
 const FARTHEST: f64 = 2.0;
 /// Step of a time, s, from which on it is taken for another unit: slower scans than two samples a second are rare.
 const SLOWEST: f64 = 0.5;
+/// Units of time, and how many of them a second has.
+const TIMES: [(&str, f64); 3] = [("s", 1.0), ("ms", 1e3), ("us", 1e6)];
 /// A time in seconds since 1970; in milliseconds, microseconds and nanoseconds it is a thousand times as much each.
 const EPOCH: f64 = 1e9;
 
@@ -19,7 +21,7 @@ pub(super) struct UnitGuess {
     pub basis: Basis,
 }
 
-/// The unit that values without a written unit suggest; none where they tell nothing.
+/// The unit that values without a written unit suggest; none where they suggest none.
 pub(super) fn of_values(quantity: Quantity, values: &ColumnSummary) -> UnitGuess {
     let likely = |unit, why: String| UnitGuess { unit: Some(unit), basis: Basis { sureness: Sureness::Likely, why } };
     let open = |why: &str| UnitGuess { unit: None, basis: Basis { sureness: Sureness::Open, why: why.to_owned() } };
@@ -43,30 +45,21 @@ pub(super) fn of_values(quantity: Quantity, values: &ColumnSummary) -> UnitGuess
         Quantity::Position => likely("m", format!("values from {least:.4} to {most:.4} are too close for millimetres")),
         Quantity::Time if size > EPOCH => {
             let power = ((size / EPOCH).log10() / 3.0).floor().clamp(0.0, 3.0);
-            let unit = if power < 0.5 {
-                "s"
-            } else if power < 1.5 {
-                "ms"
-            } else if power < 2.5 {
-                "us"
-            } else {
-                "ns"
-            };
-            likely(unit, "values count from 1970".to_owned())
+            likely(["s", "ms", "us", "ns"][power as usize], "values count from 1970".to_owned())
         }
-        Quantity::Time if values.step > 0.0 && values.step < SLOWEST => {
-            likely("s", format!("steps of {:.4} give {:.4} samples a second", values.step, 1.0 / values.step))
-        }
-        Quantity::Time if values.step >= SLOWEST && values.step < 500.0 => {
-            likely("ms", format!("steps of {:.4} give {:.4} samples a second", values.step, 1e3 / values.step))
-        }
-        Quantity::Time if values.step >= 500.0 && values.step < 5e5 => {
-            likely("us", format!("steps of {:.4} give {:.4} samples a second", values.step, 1e6 / values.step))
+        Quantity::Time if values.step > 0.0 => {
+            match TIMES.into_iter().find(|(.., second)| values.step < SLOWEST * second) {
+                Some((unit, second)) => likely(
+                    unit,
+                    format!("steps of {:.4} give {:.4} samples a second", values.step, second / values.step),
+                ),
+                None => open("the steps fit no usual rate"),
+            }
         }
         Quantity::Time => open("the steps fit no usual rate"),
-        Quantity::Force => open("values do not tell N from mN or counts"),
-        Quantity::Torque => open("values do not tell N m from N mm or counts"),
-        _ => UnitGuess { unit: None, basis: Basis { sureness: Sureness::Sure, why: String::new() } },
+        Quantity::Force => open("values do not distinguish N from mN or counts"),
+        Quantity::Torque => open("values do not distinguish N m from N mm or counts"),
+        _ => UnitGuess { unit: None, basis: Basis::sure("") },
     }
 }
 
@@ -74,7 +67,7 @@ pub(super) fn of_values(quantity: Quantity, values: &ColumnSummary) -> UnitGuess
 pub(super) fn of_spelling(quantity: Quantity, text: &str) -> Option<(&'static str, Basis)> {
     let dimension = quantity.dimension()?;
     if let Ok(unit) = Unit::parse(text, dimension) {
-        return Some((unit.name, Basis { sureness: Sureness::Sure, why: format!("[{text}] is written there") }));
+        return Some((unit.name, Basis::sure(format!("[{text}] is written there"))));
     }
     let lower = text.to_lowercase();
     // MN and mN differ by nine orders of magnitude, Deg and deg by nothing
