@@ -13,18 +13,12 @@
 
         constructor(canvas) {
             this.#canvas = canvas;
-            this.#pen = canvas.getContext('2d');
             this.fit();
         }
 
         fit() {
-            const { clientWidth, clientHeight } = this.#canvas, dense = globalThis.devicePixelRatio || 1;
-            [this.#width, this.#height] = [clientWidth, clientHeight];
-            this.#canvas.width = Math.round(clientWidth * dense);
-            this.#canvas.height = Math.round(clientHeight * dense);
-            this.#pen.setTransform(dense, 0, 0, dense, 0, 0);
-            const style = getComputedStyle(this.#canvas);
-            this.#colour = name => style.getPropertyValue(`--${name}`);
+            const surface = globalThis.playground.surface(this.#canvas);
+            [this.#pen, this.#width, this.#height, this.#colour] = [surface.pen, surface.width, surface.height, surface.colour];
         }
 
         add(seconds, reactions) {

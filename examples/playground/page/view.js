@@ -41,20 +41,14 @@
 
         constructor(canvas) {
             this.#canvas = canvas;
-            this.#pen = canvas.getContext('2d');
             this.fit();
         }
 
         /// Takes size and colours from the page again.
         fit() {
-            const { clientWidth, clientHeight } = this.#canvas, dense = globalThis.devicePixelRatio || 1;
-            this.#canvas.width = Math.round(clientWidth * dense);
-            this.#canvas.height = Math.round(clientHeight * dense);
-            [this.#width, this.#height] = [clientWidth, clientHeight];
-            this.#pen.setTransform(dense, 0, 0, dense, 0, 0);
-            this.#scale = clientWidth / (2 * HALF_WIDTH);
-            const style = getComputedStyle(this.#canvas);
-            this.#colour = name => style.getPropertyValue(`--${name}`);
+            const surface = globalThis.playground.surface(this.#canvas);
+            [this.#pen, this.#width, this.#height, this.#colour] = [surface.pen, surface.width, surface.height, surface.colour];
+            this.#scale = this.#width / (2 * HALF_WIDTH);
         }
 
         toPixels([x, y]) {
