@@ -81,11 +81,12 @@ pub(crate) fn equilibria(run: &ElasticaRun) -> Result<String, FigureError> {
     })
 }
 
-/// Where the number of an equilibrium may stand: places on the rod (mm), and directions from there. All tips that are held are at one place.
+/// Where the number of an equilibrium may stand: places on the rod (mm), and directions from there. All tips that are held are at one place, and
+/// shapes like an S cross in the middle.
 fn places(run: &ElasticaRun, one: &ElasticaEquilibrium<AnyRod>) -> Vec<((f64, f64), f64)> {
     let is_held = [run.scene.tip.x, run.scene.tip.y].iter().all(|end| matches!(end, TipEnd::Held(_)));
     let (parts, turns) = match is_held {
-        true => ([0.5, 0.6, 0.4, 0.7, 0.3], [FRAC_PI_2, -FRAC_PI_2]),
+        true => ([0.3, 0.7, 0.4, 0.6, 0.2], [FRAC_PI_2, -FRAC_PI_2]),
         false => ([1.0; 5], [0.9, -0.9]),
     };
     let at = |part: f64| {

@@ -19,7 +19,7 @@ use nalgebra::{DMatrix, Matrix2, SymmetricEigen};
 
 /// Phase of the Jacobi field between two nodes, rad: below pi, so that no segment buckles between them.
 const PHASE: f64 = 1.0;
-/// Least number of nodes: angles at these tell which constraints a rod fulfils anyway.
+/// Least number of nodes: the angles there determine which constraints the rod fulfils anyway.
 const NODES: usize = 8;
 /// Eigenvalues below this part of the largest one are zero.
 const ZERO: f64 = 1e-12;
