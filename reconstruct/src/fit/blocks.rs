@@ -1,5 +1,6 @@
 //! A recording as a fit takes it: means of blocks of samples, cut where the reactions have kinks and jumps.
 
+use super::jumps::jumps;
 use crate::kink::KinkKind;
 use crate::phase::Label;
 use crate::pipeline::{Reading, Reconstruction};
@@ -208,6 +209,9 @@ impl Cut<'_> {
             .filter(|kink| samples.contains(&kink.next))
             .map(|kink| (kink.next, kink.kind == KinkKind::Jump))
             .collect();
+        let found = jumps(track, &dimensionless(&self.local.noise, self.rod.units()));
+        let sample = |jump: usize| indices.iter().position(|index| matches!(index, Ok(TrackIndex(i)) if *i == jump));
+        cuts.extend(found.into_iter().filter_map(sample).map(|k| (samples.start + k, true)));
         cuts.sort_unstable();
         // where several lie before one sample, a jump is the last of them
         cuts.reverse();

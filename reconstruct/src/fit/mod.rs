@@ -16,6 +16,7 @@ mod finer;
 mod flatten;
 mod forward;
 mod grow;
+mod jumps;
 mod kinks;
 mod knowledge;
 mod order;
@@ -206,32 +207,28 @@ pub fn fit_contour<R: PhysicalRod>(
     if starts.is_empty() {
         return Err(FitError::NoContacts);
     }
-    // the best from all starts, or once more from what was found before
-    type Found = Option<(Solved, Blocks, Sources)>;
-    let round = |before: Found, sources: &Sources, errors: &DVector<f64>, evaluations| -> Found {
-        let again = before
-            .as_ref()
-            .map(|(solved, blocks, _)| Start { blocks: blocks.clone(), chains: solved.chains(units.length) });
-        let starts = again.as_ref().map_or(&starts[..], std::slice::from_ref);
-        let found = best_of(starts, Search { rod, sources, errors, evaluations });
-        found.map(|(solved, blocks)| (solved, blocks.clone(), sources.clone())).or(before)
-    };
     let exact = sources.exact();
     // errors that the recording does not ask for would move its contour as far as they are uncertain
     let are_free = local.is_corrected() || sources.free.is_empty();
-    let mut best = match are_free {
-        true => round(None, &sources, &errors, MOST_EVALUATIONS),
-        false => round(None, &exact, &DVector::zeros(0), WITHOUT_ERRORS),
+    let (first, at_first, evaluations) = match are_free {
+        true => (&sources, errors.clone(), MOST_EVALUATIONS),
+        false => (&exact, DVector::zeros(0), WITHOUT_ERRORS),
     };
-    if let Some((solved, ..)) = best.as_ref().filter(|best| best.0.is_near() && !best.0.goodness.explains) {
-        let errors = solved.errors();
-        best = round(best, if are_free { &sources } else { &exact }, &errors, AGAIN);
+    let search = Search { rod, sources: first, errors: &at_first, evaluations };
+    let (mut best, blocks) = best_of(&starts, search).ok_or(FitError::NoStart)?;
+    let mut used = first;
+    if best.is_near() && !best.goodness.explains {
+        let errors = best.errors();
+        let mut search = Search { rod, sources: first, errors: &errors, evaluations: AGAIN };
+        best = search.resumed(&best, blocks).unwrap_or(best);
     }
-    if !are_free && best.as_ref().is_none_or(|best| !best.0.goodness.explains) {
-        best = round(best, &sources, &errors, AGAIN);
+    if !are_free && !best.goodness.explains {
+        let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: AGAIN };
+        if let Some(found) = search.resumed(&best, blocks) {
+            (best, used) = (found, &sources);
+        }
     }
-    let (solved, blocks, sources) = best.ok_or(FitError::NoStart)?;
-    Ok(solved.result(rod, samples, &blocks, &sources, &uniform))
+    Ok(best.result(rod, samples, blocks, used, &uniform))
 }
 
 /// The best fit from some starts: the first that explains the recording, else the one of lowest cost.

@@ -56,6 +56,15 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
         Some(Begun { fit, solved })
     }
 
+    /// The better fit that more evaluations give, from the contour and the states of one that was found; perhaps with other errors.
+    pub fn resumed(&mut self, best: &Solved, blocks: &'a Blocks) -> Option<Solved> {
+        let mut fit = Fit::new(self.rod, best.curve.clone(), blocks, self.sources);
+        (fit.states, fit.bend) = (best.states.clone(), best.bend);
+        let again = self.solved(&mut fit, self.errors, ROUGHLY)?;
+        let found = self.improved(&mut fit, again);
+        found.preferred(best).is_lt().then_some(found)
+    }
+
     /// The fit at contours that are changed as long as that makes it better.
     fn improved(&mut self, fit: &mut Fit<'_, R>, mut best: Solved) -> Solved {
         // what is far off is changed before it is known well
@@ -267,12 +276,6 @@ impl Solved {
     pub fn errors(&self) -> DVector<f64> {
         let count = self.curve.count();
         self.x.rows(count, self.x.len() - count).into_owned()
-    }
-
-    /// The contour, for a rod of this length; in rod lengths.
-    pub fn chains(&self, length: f64) -> Vec<Vec<Node>> {
-        let scaled = |chain: &Vec<Node>| chain.iter().map(|node| node.scaled(1.0 / length)).collect();
-        self.curve.nodes_of_chains().iter().map(scaled).collect()
     }
 
     /// The states of the blocks with their residuals, and whether they are where the recording is explained worst.
