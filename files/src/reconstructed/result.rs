@@ -128,6 +128,7 @@ impl Reconstructed {
             findings.retain(|finding| !is_within(finding) && !matches!(finding, Finding::Uncertain { .. }));
             let kinks = fit.unexplained_kinks(&self.found.kinks, &self.found.readings).filter(|_| had_kinks);
             self.check.findings.extend(kinks);
+            self.check.findings.extend(self.found.undetermined());
         }
         self.fit = Some(fit);
     }

@@ -195,6 +195,17 @@ pub enum Finding {
         /// The first sample after it.
         to: usize,
     },
+    /// One contour explains the recording, and leaves many labels open.
+    Undetermined {
+        /// Share of wrong labels to be expected: the mean of 1 - probability.
+        share: f64,
+        /// The label of the run that is least sure.
+        label: Label,
+        /// Its first sample.
+        from: usize,
+        /// The first sample after it.
+        to: usize,
+    },
     /// No contact on this rod, with the stiffness of the line, explains a large part of the samples.
     Unexplained {
         /// The shares of what a single contact explains or not.
@@ -218,13 +229,16 @@ impl Finding {
 
     /// Whether a part of the result is missing or may be wrong, though recording, units and rod may fit together.
     pub fn is_warning(&self) -> bool {
-        matches!(self, Self::Uncertain { .. } | Self::Frozen { .. } | Self::KinksWithin { .. })
+        matches!(
+            self,
+            Self::Uncertain { .. } | Self::Undetermined { .. } | Self::Frozen { .. } | Self::KinksWithin { .. }
+        )
     }
 
     /// Whether recording, units and rod do not fit together.
     pub fn is_misfit(&self) -> bool {
         match self {
-            Self::NoContact | Self::NoLine | Self::KinksWithin { .. } => false,
+            Self::NoContact | Self::NoLine | Self::KinksWithin { .. } | Self::Undetermined { .. } => false,
             Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT_LENGTH,
             Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > MISFIT_SHIFT,
             Self::Unexplained { tangential, .. } => *tangential,
@@ -372,6 +386,13 @@ impl fmt::Display for Finding {
                 f,
                 "about {:.0} % of the labels may be wrong (mean of 1 - probability), the least sure {label} in samples {from} to {}: \
                  scan more slowly, or with less noise",
+                100.0 * share,
+                to - 1
+            ),
+            Self::Undetermined { share, label, from, to } => write!(
+                f,
+                "about {:.0} % of the labels may be wrong (mean of 1 - probability), the least sure {label} in samples {from} to {}: the \
+                 forces there hardly determine where the rod touches; scan closer to the object, or with less noise",
                 100.0 * share,
                 to - 1
             ),

@@ -1,6 +1,8 @@
 //! The answers to the samples that a contour gives: the states of the rod past it.
 
+use super::contact_rates::ContactRates;
 use super::distinct::Distinct;
+use super::doubt::{Margins, probabilities};
 use super::forward::Forward;
 use super::problem::{Fit, Model};
 use crate::phase::Label;
@@ -10,11 +12,6 @@ use nalgebra::{DMatrix, DVector, Matrix2};
 use rod_contact::{ContactKind, State};
 use rod_core::{PhysicalRod, Pose, Sample};
 
-/// Probability of a label of the model, and next to a transition of the model: shares of the samples of random scenes that were explained for which
-/// it is true.
-const SURE: f64 = 0.99;
-const NEXT_TO: f64 = 0.75;
-
 impl<R: PhysicalRod> Fit<'_, R> {
     /// The answers to samples, by the states of a model with the unknowns `x` of this covariance. `labels` are those of the blocks; none where the
     /// model is not reached, and there is no answer.
@@ -22,27 +19,39 @@ impl<R: PhysicalRod> Fit<'_, R> {
         &self,
         x: &DVector<f64>,
         model: &Model,
+        rates: &[Option<Vec<ContactRates>>],
         covariance: &DMatrix<f64>,
         labels: &[Option<Label>],
         samples: &[Sample],
     ) -> Option<Vec<Option<Reading>>> {
         let forward = Forward { rod: self.rod, curve: &model.curve, objects: &model.objects };
-        let (stepped, shared) = (self.stepped(x)?, self.by_errors(covariance)?);
+        let (length, shared) = (self.rod.units().length, self.by_errors(covariance)?);
+        let blocks = &self.blocks.blocks;
+        let mut known = blocks.iter().find_map(|block| block.systematic).unwrap_or_else(Matrix2::zeros);
+        let margins = |k: usize| {
+            known = blocks[k].systematic.unwrap_or(known);
+            let (Some(state), Some(rates)) = (&model.states[k], &rates[k]) else { return Margins::NONE };
+            let distinct = model.curve.distinct(&state.contacts, covariance, length);
+            Margins::of(&distinct, rates, covariance, &known, length)
+        };
+        let margins: Vec<Margins> = (0..blocks.len()).map(margins).collect();
+        let probabilities = probabilities(labels, &margins, &self.blocks.segments);
         let (mut answers, mut covariances) = (vec![None; samples.len()], Vec::new());
         for (k, block) in self.blocks.blocks.iter().enumerate().filter(|(k, _)| labels[*k].is_some()) {
-            let is_sure = (k.saturating_sub(1)..=k + 1).all(|j| labels.get(j).is_none_or(|label| *label == labels[k]));
-            let probability = if is_sure { SURE } else { NEXT_TO };
+            let probability = probabilities[k];
             let Some(state) = &model.states[k] else {
                 answers[block.samples.clone()].fill_with(|| Some(Reading::of_model(Label::Free, probability, &[])));
                 continue;
             };
             // at a fold those of the block before hold
-            covariances = self.covariances(x, model, k, &stepped, [covariance, &shared]).unwrap_or(covariances);
+            if let Some(rates) = &rates[k] {
+                covariances = rates.iter().map(|by| [covariance, &shared].map(|of| by.of_point(of))).collect();
+            }
             if covariances.is_empty() && !state.contacts.is_empty() {
                 continue;
             }
             // the errors of the samples of a block are about those of its mean
-            let (mean, length) = (block.clamp.pose, self.rod.units().length);
+            let mean = block.clamp.pose;
             let pose = |sample: &Sample| Pose {
                 x: state.pose.x + sample.pose.x - mean.x * length,
                 y: state.pose.y + sample.pose.y - mean.y * length,
@@ -55,7 +64,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
             forward.follow(state, (0..middle).rev(), &poses, &mut found);
             for (answer, state) in answers[block.samples.clone()].iter_mut().zip(&found) {
                 let told = |state: &State| {
-                    let distinct = model.curve.distinct(&state.contacts, covariance, self.rod.units().length);
+                    let distinct = model.curve.distinct(&state.contacts, covariance, length);
                     self.answer(x, &distinct, &covariances, probability)
                 };
                 // a contact that begins inside the block may have no covariance yet

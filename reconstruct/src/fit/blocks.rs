@@ -7,7 +7,7 @@ use crate::pipeline::{Reading, Reconstruction};
 use crate::point::{Clamp, Touch};
 use crate::scan::{Fault, Track, TrackIndex, dimensionless};
 use crate::systematic::{Frame, motion};
-use nalgebra::Vector3;
+use nalgebra::{Matrix2, Vector3};
 use rod_contact::{Contact, ContactKind};
 use rod_core::{Rod, Sample, Units};
 use std::ops::Range;
@@ -52,6 +52,8 @@ pub(super) struct Block {
     pub label: Label,
     /// The contacts that it gives, SI units of the given rod; empty where they are not known.
     pub contacts: Vec<Contact>,
+    /// Covariance of contact points by errors that all samples share, m^2; none where there is no contact point.
+    pub systematic: Option<Matrix2<f64>>,
     /// Whether it is left out: it is beside a jump, or the rod rings after one.
     pub is_left_out: bool,
 }
@@ -265,6 +267,7 @@ impl Cut<'_> {
             sigma,
             label: middle.label,
             contacts: self.contacts(middle),
+            systematic: middle.touch.ok().map(|touch| touch.systematic),
             is_left_out: false,
             samples,
         }

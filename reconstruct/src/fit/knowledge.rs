@@ -1,11 +1,12 @@
 //! What the recording tells of the contour at each of its points: it is touched, or the rod bounds it from outside, or nothing is known.
 
 use super::bent::bent;
+use super::contact_rates::ContactRates;
 use super::curve::Node;
 use super::problem::{Corrected, Fit, Model};
 use super::swept::Swept;
 use crate::phase::Label;
-use nalgebra::{DMatrix, DVector, Vector2};
+use nalgebra::{DMatrix, Vector2};
 use rod_contact::State;
 use rod_core::{PhysicalRod, Reactions};
 use std::collections::BTreeSet;
@@ -73,17 +74,17 @@ impl Knowledge {
 }
 
 impl<R: PhysicalRod> Fit<'_, R> {
-    /// What is known at each node of each chain of a model with the unknowns `x` of this covariance, whose blocks have these labels.
+    /// What is known at each node of each chain of a model whose contacts have these rates and whose blocks these labels.
     pub fn known(
         &self,
-        x: &DVector<f64>,
         model: &Model,
+        rates: &[Option<Vec<ContactRates>>],
         covariance: &DMatrix<f64>,
         labels: &[Option<Label>],
     ) -> Vec<Vec<Knowledge>> {
         let (curve, length) = (&model.curve, self.rod.units().length);
         let swept = self.swept(model, labels);
-        let touched = self.touched(x, model, covariance).unwrap_or_default();
+        let touched = Self::touched(model, rates, covariance);
         let of_chain = |chain: Vec<(usize, Node)>| {
             let (numbers, nodes): (Vec<usize>, Vec<Node>) = chain.into_iter().unzip();
             let of_node = |(k, node): (usize, &usize)| match touched.contains(node) {
@@ -96,15 +97,15 @@ impl<R: PhysicalRod> Fit<'_, R> {
     }
 
     /// The nodes that contacts touch whose place is known: a hardly loaded rod is straight, and does not tell where along it that is.
-    fn touched(&self, x: &DVector<f64>, model: &Model, covariance: &DMatrix<f64>) -> Option<BTreeSet<usize>> {
-        let (curve, stepped) = (&model.curve, self.stepped(x)?);
+    fn touched(model: &Model, rates: &[Option<Vec<ContactRates>>], covariance: &DMatrix<f64>) -> BTreeSet<usize> {
+        let curve = &model.curve;
         let (mut sure, mut likely) = (BTreeSet::new(), BTreeSet::new());
         for (block, state) in
             model.states.iter().enumerate().filter_map(|(block, state)| Some((block, state.as_ref()?)))
         {
-            let known = self.covariances(x, model, block, &stepped, [covariance; 2]).unwrap_or_default();
-            for (contact, [own, _]) in state.contacts.iter().zip(known) {
+            for (contact, by) in state.contacts.iter().zip(rates[block].iter().flatten()) {
                 let Some(node) = curve.node_at(contact) else { continue };
+                let own = by.of_point(covariance);
                 let (sigma, way) = (own.symmetric_eigenvalues().max().sqrt(), curve.spacing(node));
                 if sigma < way {
                     likely.insert(node);
@@ -124,7 +125,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 touched.extend(ends.into_iter().flat_map(|(first, last)| &run[first..=last]));
             }
         }
-        Some(touched)
+        touched
     }
 
     /// Where the rod was.

@@ -8,8 +8,10 @@
 mod answers;
 mod bent;
 mod blocks;
+mod contact_rates;
 mod curve;
 mod distinct;
+mod doubt;
 mod ends;
 mod family;
 mod finer;

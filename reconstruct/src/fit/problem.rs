@@ -1,6 +1,7 @@
 //! The fit of contour and shared errors as a least-squares problem.
 
 use super::blocks::{Block, Blocks};
+use super::contact_rates::ContactRates;
 use super::curve::Curve;
 use super::forward::Forward;
 use crate::least_squares::{Loss, NormalMatrix, Problem};
@@ -8,7 +9,7 @@ use crate::phase::Label;
 use crate::pipeline::Reconstruction;
 use crate::point::Clamp;
 use crate::systematic::{Correction, Errors, Source, still};
-use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 use rod_contact::{Contact, Derivatives, Quantity, State};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Response, Rod, SupportRate};
@@ -310,7 +311,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
     }
 
     /// The blocks without errors of which each is a step larger.
-    pub fn stepped(&self, x: &DVector<f64>) -> Option<Vec<Vec<Corrected>>> {
+    fn stepped(&self, x: &DVector<f64>) -> Option<Vec<Vec<Corrected>>> {
         let errors = self.errors(x);
         let with_step = |k: &usize| {
             let mut other = errors;
@@ -326,20 +327,26 @@ impl<R: PhysicalRod> Fit<'_, R> {
         (1.0 + errors[Source::Length as usize], 1.0 + errors[Source::Stiffness as usize])
     }
 
-    /// Covariances of the contact points of a block, m^2, by each of some of the unknowns; none at a fold.
-    pub fn covariances(
+    /// How the contacts of each block change with the unknowns; none at a fold, and where the model has no state.
+    pub fn contact_rates(&self, x: &DVector<f64>, model: &Model) -> Vec<Option<Vec<ContactRates>>> {
+        let Some(stepped) = self.stepped(x) else { return vec![None; model.states.len()] };
+        let of = |(block, state): (usize, &Option<State>)| self.rates_of(x, model, block, state.as_ref()?, &stepped);
+        model.states.iter().enumerate().map(of).collect()
+    }
+
+    fn rates_of(
         &self,
         x: &DVector<f64>,
-        Model { curve, objects, corrected, states }: &Model,
+        Model { curve, objects, corrected, .. }: &Model,
         block: usize,
+        state: &State,
         stepped: &[Vec<Corrected>],
-        covariances: [&DMatrix<f64>; 2],
-    ) -> Option<Vec<[Matrix2<f64>; 2]>> {
-        let state = states[block].as_ref()?;
-        let mut by: Vec<Vec<(usize, Vector2<f64>)>> = vec![Vec::new(); state.contacts.len()];
+    ) -> Option<Vec<ContactRates>> {
+        let (longer, _) = self.rod_over_given(x);
+        let mut by = vec![ContactRates { longer, ..ContactRates::default() }; state.contacts.len()];
         let mut add = |i: usize, response: &Response, share: f64| {
             for (by, rate) in by.iter_mut().zip(&response.contacts) {
-                by.push((i, Vector2::new(rate.x, rate.y) * share));
+                by.rates.push((i, share, *rate));
             }
         };
         let derivatives = Derivatives::new(self.rod, objects, state).ok()?;
@@ -352,21 +359,13 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 add(curve.count() + i, response, moved / STEP);
             }
         }
-        let (longer, _) = self.rod_over_given(x);
-        let length = self.sources.free.iter().position(|k| *k == Source::Length as usize);
-        let sized = |(contact, by): (&Contact, &Vec<(usize, Vector2<f64>)>)| {
-            let mut by: Vec<(usize, Vector2<f64>)> = by.iter().map(|(i, rate)| (*i, rate * longer)).collect();
-            let of_length = length.map(|i| {
-                let sigma = self.sources.sigmas[Source::Length as usize];
-                (curve.count() + i, Vector2::new(contact.x, contact.y) * sigma)
-            });
-            by.extend(of_length);
-            covariances.map(|covariance| {
-                let pairs = by.iter().flat_map(|one| by.iter().map(move |other| (one, other)));
-                pairs.map(|((i, one), (j, other))| one * other.transpose() * covariance[(*i, *j)]).sum()
-            })
-        };
-        Some(state.contacts.iter().zip(&by).map(sized).collect())
+        if let Some(i) = self.sources.free.iter().position(|k| *k == Source::Length as usize) {
+            let sigma = self.sources.sigmas[Source::Length as usize];
+            for (by, contact) in by.iter_mut().zip(&state.contacts) {
+                by.by_length = Some((curve.count() + i, Vector2::new(contact.x, contact.y) * sigma));
+            }
+        }
+        Some(by)
     }
 
     /// The rows of all blocks; none of those that the model does not reach.

@@ -328,7 +328,8 @@ impl Solved {
         };
         let labels: Vec<Option<Label>> = explained.labels.iter().zip(&fit.states).map(told).collect();
         let explaining = model.as_ref().filter(|_| goodness.explains);
-        let readings = explaining.and_then(|model| fit.answers(&x, model, &covariance, &labels, samples));
+        let rates = model.as_ref().map(|model| fit.contact_rates(&x, model)).unwrap_or_default();
+        let readings = explaining.and_then(|model| fit.answers(&x, model, &rates, &covariance, &labels, samples));
         let count = curve.count();
         let sigma = |i: usize| covariance[(i, i)].max(0.0).sqrt();
         let of_source = |(i, k): (usize, &usize)| {
@@ -343,7 +344,7 @@ impl Solved {
             label: labels[k],
             residuals: explained.residuals[k].map(Into::into),
         };
-        let known = model.as_ref().map(|model| fit.known(&x, model, &covariance, &labels));
+        let known = model.as_ref().map(|model| fit.known(model, &rates, &covariance, &labels));
         let known =
             known.unwrap_or_else(|| curve.chains().map(|chain| chain.map(|_| Knowledge::Unknown).collect()).collect());
         let residuals = 3.0 * explained.residuals.iter().flatten().count() as f64;

@@ -30,7 +30,7 @@ pub(crate) fn upper_tail(x: f64, freedom: f64) -> f64 {
 
 /// The probability that a standard normal variable is `z` or more, relative error below 1e-8: by its Taylor series, and from 2 on by the
 /// continued fraction of Laplace.
-fn beyond(z: f64) -> f64 {
+pub(crate) fn beyond(z: f64) -> f64 {
     let density = (-0.5 * z * z).exp() / (2.0 * PI).sqrt();
     if z > 2.0 {
         let fraction = (1..=60).rev().fold(z, |rest, k| z + f64::from(k) / rest);

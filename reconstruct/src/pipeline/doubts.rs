@@ -57,7 +57,13 @@ impl Reconstruction {
         let frozen = self.readings.iter().filter(|reading| is_frozen(reading)).count();
         // what does not fit makes labels uncertain, too
         if findings.is_empty() {
-            findings.extend(self.uncertain());
+            let finding = |(share, label, run): (f64, Label, Range<usize>)| Finding::Uncertain {
+                share,
+                label,
+                from: run.start,
+                to: run.end,
+            };
+            findings.extend(self.least_sure().map(finding));
         }
         findings.extend(self.kinks_within());
         if let Some(from) = self.readings.iter().position(is_frozen) {
@@ -79,8 +85,14 @@ impl Reconstruction {
         Some(Finding::KinksWithin { count: 1 + kinks.count(), from })
     }
 
-    /// The labels that are to be expected wrong, where there are many, with the run that is least sure.
-    fn uncertain(&self) -> Option<Finding> {
+    /// The labels that a contour leaves open which explains the recording ([`Reconstruction::adopt`]), where there are many.
+    pub fn undetermined(&self) -> Option<Finding> {
+        let (share, label, run) = self.least_sure()?;
+        Some(Finding::Undetermined { share, label, from: run.start, to: run.end })
+    }
+
+    /// The share of wrong labels to be expected, where it is large, with the run that is least sure.
+    fn least_sure(&self) -> Option<(f64, Label, Range<usize>)> {
         let wrong = |samples: &[Reading]| {
             let used = samples.iter().filter(|reading| !matches!(reading.touch, Err(Reason::Fault(_))));
             used.map(|reading| 1.0 - reading.probability).sum::<f64>()
@@ -92,7 +104,7 @@ impl Reconstruction {
         let counted = counted.filter(|(wrong, ..)| *wrong > MUCH * share * self.readings.len() as f64);
         let doubt = |run: &Range<usize>, wrong: f64| wrong / run.len().max(1) as f64;
         let (_, run, label) = counted.max_by(|u, v| doubt(&u.1, u.0).total_cmp(&doubt(&v.1, v.0)))?;
-        (share > UNCERTAIN).then_some(Finding::Uncertain { share, label, from: run.start, to: run.end })
+        (share > UNCERTAIN).then_some((share, label, run))
     }
 }
 
