@@ -12,7 +12,10 @@ fn an_industrial_sensor_gives_kinks_phases_and_both_contacts() {
     let scans = sweep(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes")), &scans(), 0.0).unwrap();
     for noise in &NOISES {
         let mut score = Score::default();
-        judge(&scans, &LEVELS[1], noise, SEEDS, None, &|| ()).unwrap().into_iter().for_each(|scan| score.merge(scan));
+        judge(&scans, &LEVELS[1], noise, 0..SEEDS, false, None, &|| ())
+            .unwrap()
+            .into_iter()
+            .for_each(|scan| score.merge(scan));
         println!("{}", crate::study::tables([(&LEVELS[1], Some(noise), &score)]));
 
         assert_eq!(score.scans, 9 * SEEDS as usize);

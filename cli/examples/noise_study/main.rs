@@ -19,6 +19,12 @@ struct Arguments {
     /// Recordings of each scan with each noise.
     #[arg(long, default_value_t = 20)]
     seeds: u64,
+    /// The first of their seeds.
+    #[arg(long, default_value_t = 0)]
+    first: u64,
+    /// Fits one contour to each recording, which takes seconds; a contour that explains it gives the answers.
+    #[arg(long)]
+    fit: bool,
     /// Only these levels: clean, 0.2mN, 2.5mN, 10mN.
     #[arg(long, num_args = 1.., value_parser = ["clean", "0.2mN", "2.5mN", "10mN"])]
     level: Vec<String>,
@@ -74,7 +80,8 @@ fn of_friction(arguments: &Arguments, friction: f64) -> Outcome<Vec<Row>> {
     for &(level, noise) in clean.iter().chain(&noisy) {
         let without = level.force == 0.0;
         let (seeds, keep) = if without { (1, None) } else { (arguments.seeds, keep.as_ref()) };
-        let scores = study::judge(&scans, level, noise, seeds, keep, &|| bar.inc(1))?;
+        let seeds = arguments.first..arguments.first + seeds;
+        let scores = study::judge(&scans, level, noise, seeds, arguments.fit && !without, keep, &|| bar.inc(1))?;
         let noise = (!without).then_some(noise);
         if arguments.by_scan {
             details += &detail(&scans, level, noise, &scores);

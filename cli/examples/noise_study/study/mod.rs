@@ -16,8 +16,9 @@ pub use table::{by_scan, compared, frictions, tables};
 
 use rayon::prelude::*;
 use std::error::Error;
+use std::ops::Range;
 use std::path::Path;
-use vibrissa::reconstruct::Friction;
+use vibrissa::reconstruct::{Friction, fit_contour};
 
 /// Samples in a second, 1/s, and speed of the clamp, m/s.
 pub const RATE: f64 = 500.0;
@@ -40,18 +41,20 @@ pub fn sweep(scenes: &Path, names: &[String], friction: f64) -> Outcome<Vec<Clea
     names.par_iter().map(|name| Clean::sweep(&scenes.join(format!("{name}.toml")), friction)).collect()
 }
 
-/// Records and reconstructs each scan with so many seeds of a noise; a score for each scan. The recordings are kept if
-/// there is a place for them.
+/// Records and reconstructs each scan with these seeds of a noise, by one contour for the whole recording where it `fits` one; a score for each
+/// scan. The recordings are kept if there is a place for them.
 pub fn judge(
     scans: &[Clean],
     level: &Level,
     noise: &Noise,
-    seeds: u64,
+    seeds: Range<u64>,
+    fits: bool,
     keep: Option<&Recordings>,
     done: &(dyn Fn() + Sync),
 ) -> Outcome<Vec<Score>> {
     let model = level.model(noise);
-    let work: Vec<(usize, u64)> = (0..scans.len()).flat_map(|scan| (0..seeds).map(move |seed| (scan, seed))).collect();
+    let work: Vec<(usize, u64)> =
+        (0..scans.len()).flat_map(|scan| seeds.clone().map(move |seed| (scan, seed))).collect();
     let judged: Outcome<Vec<(usize, Score)>> = work
         .into_par_iter()
         .map(|(scan, seed)| {
@@ -60,11 +63,16 @@ pub fn judge(
             let samples = clean.recorded(&model, 1000 * scan as u64 + seed)?;
             let friction = if clean.friction == 0.0 { Friction::None } else { Friction::Estimate };
             let settings = vibrissa::Settings { friction, ..vibrissa::Settings::default() };
-            let found = vibrissa::reconstruct(clean.scene.rod.at_clamp(), &samples, &settings)?;
+            let mut found = vibrissa::reconstruct(clean.scene.rod.at_clamp(), &samples, &settings)?;
+            let fit = fits.then(|| fit_contour(clean.scene.rod.at_clamp(), &samples, &found)).transpose()?;
+            if let Some(fit) = &fit {
+                found.adopt(fit, &settings);
+            }
             if let Some(keep) = keep {
                 keep.add(clean, level, noise, seed, &samples, &found)?;
             }
-            let score = Score::of(clean, &samples, &found);
+            let mut score = Score::of(clean, &samples, &found);
+            fit.iter().for_each(|fit| score.explained.count(fit.goodness.explains));
             done();
             Ok((scan, score))
         })

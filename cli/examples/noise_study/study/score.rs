@@ -15,6 +15,9 @@ const LONG: f64 = 0.5e-3;
 /// Standard deviations within which a point is covered: 95 % of normal errors are.
 const COVERED: f64 = 2.0;
 
+/// Least probabilities by which labels are counted.
+pub const PROBABILITIES: [f64; 4] = [0.0, 0.7, 0.9, 0.98];
+
 /// So many of so many.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Share {
@@ -55,10 +58,16 @@ pub struct Score {
     pub resolved: [Share; 2],
     /// Stretches with several contacts in which no sample has a first, a second contact.
     pub given_up: [Share; 2],
+    /// Recordings that one contour explains, of those to which one was fitted.
+    pub explained: Share,
+    /// Labels that are right, by their probability from each of [`PROBABILITIES`] on.
+    pub sure: [Share; PROBABILITIES.len()],
+    /// Wrong labels that the probabilities let expect.
+    pub expected: f64,
 }
 
 impl Share {
-    fn count(&mut self, is: bool) {
+    pub fn count(&mut self, is: bool) {
         self.part += usize::from(is);
         self.whole += 1;
     }
@@ -66,6 +75,11 @@ impl Share {
     fn merge(&mut self, other: Self) {
         self.part += other.part;
         self.whole += other.whole;
+    }
+
+    /// How many are not.
+    pub fn others(&self) -> usize {
+        self.whole - self.part
     }
 
     /// None of nothing.
@@ -119,6 +133,9 @@ impl Score {
             self.resolved[k].merge(other.resolved[k]);
             self.given_up[k].merge(other.given_up[k]);
         }
+        self.explained.merge(other.explained);
+        self.sure.iter_mut().zip(other.sure).for_each(|(sure, other)| sure.merge(other));
+        self.expected += other.expected;
     }
 
     /// Transitions that hardly show need not be found, and are no false alarms where they are.
@@ -151,6 +168,9 @@ impl Score {
         let off = |touch: &Touch| signed_distance(objects, touch.x, touch.y);
         for ((reading, truth), sample) in found.readings.iter().zip(&clean.labels).zip(samples) {
             self.phases.add(*truth, reading.label);
+            let class = PROBABILITIES.iter().rposition(|least| reading.probability >= *least).unwrap_or(0);
+            self.sure[class].count(*truth == reading.label);
+            self.expected += 1.0 - reading.probability;
             let touch = reading.touch.as_ref().ok();
             if reading.label.several() {
                 let second = reading.second.as_ref().and_then(|second| second.as_ref().ok());

@@ -1,5 +1,6 @@
 //! Scores as tables in Markdown, lengths in mm.
 
+use super::score::Share;
 use super::{Level, Noise, Score};
 use vibrissa::reconstruct::score::Deviation;
 
@@ -28,10 +29,20 @@ const SEVERAL: &Columns = &[
     }),
     ("stretches without first / second", |score| both(score.given_up.map(|share| share.value()))),
 ];
-const TABLES: [(&str, &Columns); 3] = [
+const LABELS: &Columns = &[
+    ("explained", |score| percent(score.explained.value())),
+    ("wrong", |score| score.sure.iter().map(Share::others).sum::<usize>().to_string()),
+    ("wrong by their probabilities", |score| format!("{:.0}", score.expected)),
+    ("right below 0.7", |score| percent(score.sure[0].value())),
+    ("0.7 to 0.9", |score| percent(score.sure[1].value())),
+    ("0.9 to 0.98", |score| percent(score.sure[2].value())),
+    ("above", |score| percent(score.sure[3].value())),
+];
+const TABLES: [(&str, &Columns); 4] = [
     ("Kinks, phases and what is kept:", FOUND),
     ("Distances from the contour, mm: median / 95 % / largest", POINTS),
     ("Two-point stretches, distances from the contour, mm: median / 95 %", SEVERAL),
+    ("Recordings that one contour explains (with --fit), labels, and the share that is right by probability:", LABELS),
 ];
 
 /// Tables with a row for each noise.
