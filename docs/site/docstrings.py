@@ -1,4 +1,7 @@
-"""Docstrings for the site; an extension of griffe, which reads stubs: those of the compiled module, and Sphinx's roles as links."""
+"""Docstrings of the API; an extension of griffe, which reads stubs and sources.
+
+The docstrings of the compiled module come from the module itself. Roles of Sphinx become links.
+"""
 
 from __future__ import annotations
 

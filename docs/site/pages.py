@@ -1,4 +1,4 @@
-"""Pages of the site from elsewhere in the repository, and the links between pages and to the repository; a hook of mkdocs."""
+"""Pages from outside of docs/, and links between pages and to the repository; a hook of mkdocs."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ ELSEWHERE = {
     "site.css": "docs/site/site.css",
 }
 # A folder stands for its README.
-PAGES = {file: page for page, file in ELSEWHERE.items()} | {"python": "python.md", "examples/playground": "playground.md"}
+FOLDERS = {"python": "python.md", "examples/playground": "playground.md"}
+PAGES = FOLDERS | {file: page for page, file in ELSEWHERE.items()}
 
 # The end of a link in Markdown: `](there)`, or `[name]: there`.
 LINK = re.compile(r"(\]\(|^\[[^\]\n]+\]: +)([^\s)]+)", re.MULTILINE)
@@ -52,7 +53,7 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
 
 
 def _link(there: str, origin: str, source: str, files: Files) -> str:
-    """A link of the file ``origin`` as the page ``source`` needs it: to a page if there is one, else to the repository."""
+    """A link of the file ``origin`` as the page ``source`` needs it: to a page, or else to the repository."""
     if there.startswith(REPOSITORY):
         parts = re.fullmatch(r"/(?:blob|tree|raw)/main/([^#]*)(#.*)?", there.removeprefix(REPOSITORY))
         if not parts:

@@ -1,0 +1,37 @@
+//! The simulator of examples/cart.rs keeps its energy but for what the whisker loses when it slips off.
+
+#[allow(dead_code, reason = "the program draws and prints")]
+#[path = "../examples/cart.rs"]
+mod example;
+
+use example::{MASS, report, roll, scene};
+
+#[test]
+fn the_cart_bounces_or_passes_and_the_energy_is_accounted_for() {
+    let (rod, post) = scene().unwrap();
+    for (start, passes) in [(0.3, false), (0.6, true)] {
+        let moments = roll(&rod, &post, -start).unwrap();
+        let last = moments.last().unwrap();
+        assert_eq!(last.speed < 0.0, passes, "{start}: {}", last.speed);
+        let lost: f64 = moments
+            .iter()
+            .flat_map(|moment| &moment.events)
+            .map(|event| event.before.energy - event.after.energy)
+            .sum();
+        assert_eq!(lost > 1e-3, passes, "{start}: {lost} J");
+        let kinetic = |speed: f64| 0.5 * MASS * speed * speed;
+        // the error of the time step, 1 ms
+        let missing = kinetic(start) - kinetic(last.speed) - lost;
+        assert!(missing.abs() < 0.01 * kinetic(start), "{start}: {missing} J of {}", kinetic(start));
+    }
+}
+
+#[test]
+fn the_tutorial_shows_what_the_program_prints() {
+    let page = include_str!("../docs/tutorials/simulator.md");
+    let (rod, post) = scene().unwrap();
+    for start in [0.3, 0.6] {
+        let text = report(&roll(&rod, &post, -start).unwrap()).unwrap();
+        assert!(page.contains(&format!("```text\n{text}```")), "{start}:\n{text}");
+    }
+}
