@@ -32,6 +32,8 @@ PAGES = FOLDERS | {file: page for page, file in ELSEWHERE.items()}
 
 # The end of a link in Markdown: `](there)`, or `[name]: there`.
 LINK = re.compile(r"(\]\(|^\[[^\]\n]+\]: +)([^\s)]+)", re.MULTILINE)
+# Code within a line: a bar in it needs a backslash on the code host, if it is in a table, and here must have none.
+CODE = re.compile(r"`[^`\n]+`")
 # The words of rustdoc behind the name of a language.
 FENCE = re.compile(r"^(```[a-z]+),\S+$", re.MULTILINE)
 
@@ -49,7 +51,8 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
     def moved(link: re.Match[str]) -> str:
         return link[1] + _link(link[2], origin, source, files)
 
-    return LINK.sub(moved, FENCE.sub(r"\1", markdown))
+    markdown = CODE.sub(lambda code: code[0].replace(r"\|", "|"), FENCE.sub(r"\1", markdown))
+    return LINK.sub(moved, markdown)
 
 
 def _link(there: str, origin: str, source: str, files: Files) -> str:
