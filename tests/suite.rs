@@ -2,6 +2,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 mod allocation;
+mod cart;
 mod common;
 mod convergence;
 mod derivatives;

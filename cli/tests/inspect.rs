@@ -356,6 +356,7 @@ fn a_sensor_and_its_stage_belong_together() {
     assert!(words(&found).contains("--stage table:stage.tsv --setup sensor.toml"), "{}", words(&found));
     let setup = fs::read_to_string(directory.path().join("sensor.toml")).unwrap();
     assert!(setup.contains("axes = [\"-y\", \"x\", \"z\"]") && setup.contains("sense = \"load\""), "{setup}");
+    assert!(fact(&found, "frame").contains("f0x = -Fy, f0y = Fx, m0z = -Tz"), "{found:#}");
     runs(directory.path(), &found);
     // each alone is not enough
     for (file, question) in [("ati.csv", "where is the clamp"), ("stage.tsv", "which recording of a sensor")] {

@@ -64,9 +64,14 @@ impl ReactionFrame {
     /// In words, where the columns are called so.
     pub fn text(self, names: [&str; 3]) -> String {
         let [x, y, z] = if self.swapped { [names[1], names[0], names[2]] } else { names };
-        let sign = |turned: bool| if turned { "-" } else { "" };
-        let [a, b, c] = self.turned.map(sign);
-        format!("f0x = {a}{x}, f0y = {b}{y}, m0z = {c}{z}")
+        // a name of loads begins with a minus itself
+        let signed = |turned: bool, name: &str| match (turned, name.strip_prefix('-')) {
+            (true, Some(name)) => name.to_owned(),
+            (true, None) => format!("-{name}"),
+            (false, _) => name.to_owned(),
+        };
+        let [a, b, c] = self.turned;
+        format!("f0x = {}, f0y = {}, m0z = {}", signed(a, x), signed(b, y), signed(c, z))
     }
 }
 
