@@ -21,6 +21,7 @@ mod grow;
 mod jumps;
 mod kinks;
 mod knowledge;
+mod means;
 mod order;
 mod outline;
 mod pair;

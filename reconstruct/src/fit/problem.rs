@@ -10,7 +10,7 @@ use crate::pipeline::Reconstruction;
 use crate::point::Clamp;
 use crate::systematic::{Correction, Errors, Source, still};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
-use rod_contact::{Contact, Derivatives, Quantity, State};
+use rod_contact::{Derivatives, Quantity, State};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Response, Rod, SupportRate};
 use std::collections::{BTreeMap, BTreeSet};
@@ -216,27 +216,9 @@ impl<R: PhysicalRod> Fit<'_, R> {
     }
 
     /// The reactions of a state, dimensionless.
-    fn reactions(&self, state: Option<&State>) -> Vector3<f64> {
+    pub fn reactions(&self, state: Option<&State>) -> Vector3<f64> {
         let of = |state: &State| Clamp::new(self.rod.units(), state.pose, state.reactions).reactions;
         state.map_or(Vector3::zeros(), of)
-    }
-
-    /// Whether the contacts of a block, or the pieces of the contour on which they are, are not those of its neighbours: they change inside it.
-    fn changes_inside(states: &[Option<State>], block: usize) -> bool {
-        let place = |contact: &Contact| (contact.object, contact.piece, contact.kind);
-        let neighbours = [block.checked_sub(1), Some(block + 1)];
-        let mut others = neighbours.into_iter().flatten().filter_map(|k| states.get(k)?.as_ref());
-        states[block].as_ref().is_some_and(|state| {
-            others.any(|other| other.contacts.iter().map(place).ne(state.contacts.iter().map(place)))
-        })
-    }
-
-    /// The mean reactions of a block around a state, dimensionless; none where the rod jumps inside it.
-    fn mean_reactions(&self, forward: &Forward<'_, R>, state: &State, block: &Block) -> Option<Vector3<f64>> {
-        let units = self.rod.units();
-        let half = [block.half.x * units.length, block.half.y * units.length, block.half.z];
-        let mean = forward.mean_reactions(state, half)?;
-        Some(Clamp::new(units, state.pose, mean).reactions)
     }
 
     /// The model with these unknowns; none where its contour is no curve.
@@ -262,18 +244,15 @@ impl<R: PhysicalRod> Fit<'_, R> {
     }
 
     /// The recording against the model.
-    pub fn explained(&self, Model { curve, objects, corrected, states }: &Model) -> Explained {
-        let forward = Forward { rod: self.rod, curve, objects };
+    pub fn explained(&self, model: &Model) -> Explained {
+        let (means, Model { objects, corrected, states, .. }) = (self.means(model), model);
         let mut explained = Explained::default();
         for (k, block) in self.blocks.blocks.iter().enumerate() {
             let state = states[k].as_ref();
             let is_known = state.is_some() || self.is_free(k, states);
             let label = state.map_or(Label::Free, |state| Label::of(state.phase().contacts, state.phase().tip));
             explained.labels.push(is_known.then_some(label));
-            let mean = state.filter(|_| Self::changes_inside(states, k));
-            let model =
-                mean.map_or_else(|| Some(self.reactions(state)), |state| self.mean_reactions(&forward, state, block));
-            let (is_known, model) = (is_known && model.is_some(), model.unwrap_or_default());
+            let (is_known, model) = (is_known && means[k].is_some(), means[k].unwrap_or_default());
             let by_pose = state.map_or_else(Matrix3::zeros, |state| self.by_pose(objects, state));
             let residual = corrected[k].residual(&model, &by_pose, block);
             explained.residuals.push((is_known && !block.is_left_out).then_some(residual));
@@ -371,13 +350,13 @@ impl<R: PhysicalRod> Fit<'_, R> {
     /// The rows of all blocks; none of those that the model does not reach.
     fn rows(&self, x: &DVector<f64>, at: &Model) -> Option<Vec<Option<Row>>> {
         let Model { corrected, states, .. } = at;
-        let (first, stepped) = (self.curve.count(), self.stepped(x)?);
+        let (first, stepped, means) = (self.curve.count(), self.stepped(x)?, self.means(at));
         let row = |k: usize| {
             let (block, state) = (&self.blocks.blocks[k], states[k].as_ref());
             if state.is_none() && !self.is_free(k, states) {
                 return None;
             }
-            let (here, model) = (&corrected[k], self.reactions(state));
+            let (here, model) = (&corrected[k], means[k].unwrap_or_else(|| self.reactions(state)));
             let mut by: [Vec<(usize, f64)>; 3] = Default::default();
             let touching = state.filter(|state| !state.contacts.is_empty());
             let Rates { by_pose, by_offsets } = match touching {
