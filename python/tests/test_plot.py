@@ -127,7 +127,7 @@ def test_the_figure_of_a_sweep(scan: vibrissa.Scan) -> None:
     assert (left.get_xlabel(), left.get_ylabel()) == ("x in mm", "y in mm")
 
 
-@pytest.mark.parametrize("name", ["whisking", "comb", "ring_gear", "channel"])
+@pytest.mark.parametrize("name", ["whisking", "comb", "ring_gear"])
 def test_figures_of_other_scenes_are_legible(name: str) -> None:
     other = vibrissa.Scene.read(SCENES / f"{name}.toml").sweep()
     left, *right = vibrissa.plot.sweep(other)
@@ -189,6 +189,10 @@ def test_the_criterion(scan: vibrissa.Scan, found: vibrissa.Reconstruction) -> N
     for ax in (vibrissa.plot.criterion(scan), vibrissa.plot.criterion(found, over="position")):
         assert "2 EI" in ax.get_ylabel() and ax.get_ylabel().endswith("in (mN·m)²")
         assert_legible(ax)
+    ax.set_ylim(-5e-3, 0.0)
+    figure_of(ax).canvas.draw()
+    # the prefix of a square counts twice
+    assert ax.get_ylabel().endswith("in (mN·m)²") and ax.get_yticklabels()[0].get_text() == "\u22125000"
     soft = vibrissa.Rod(0.1, 6e-4, clamp=vibrissa.ElasticClamp(stiffness_phi=0.4))
     path = vibrissa.ClampPath((0.05, -0.04, math.pi / 2), (0.04, -0.04, math.pi / 2))
     with pytest.raises(ValueError, match="expected a uniform, straight one on a rigid clamp"):
@@ -287,7 +291,6 @@ def test_axes_of_ones_own_have_the_style() -> None:
         vibrissa.plot.object_outline(ax, [vibrissa.Composite(Hump())], (-0.1, 0.1, 0.0, 0.1))
         vibrissa.plot.elastica(vibrissa.elastica(vibrissa.Rod(0.1, 6e-4), (0.0, 0.0, 0.0)), ax)
     figure_of(ax).canvas.draw()
-    # numbers on axes are made when they are drawn
     assert {text.get_fontsize() for text in ax.get_xticklabels()} == {7.0}
     assert ax.xaxis.label.get_fontsize() == 8.0 and not ax.spines["top"].get_visible()
 
@@ -321,12 +324,12 @@ def test_the_notch_has_the_points_of_both_contacts(scan: vibrissa.Scan) -> None:
 
 
 def test_a_sweep_moves(scan: vibrissa.Scan, tmp_path: Path) -> None:
-    animation = vibrissa.plot.animate(scan, frames=4)
+    animation = vibrissa.plot.animate(scan, frames=2)
     file = tmp_path / "sweep.gif"
     animation.save(file, writer="pillow", dpi=40)
     from PIL import Image
 
     with Image.open(file) as image:
-        assert image.n_frames == 4  # type: ignore[attr-defined]
+        assert image.n_frames == 2  # type: ignore[attr-defined]
     with pytest.raises(ValueError, match="frames is 0, expected 1 or more"):
         vibrissa.plot.animate(scan, frames=0)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,7 @@ from ._course import Array, Course, Over, Rows, Source, course, runs
 from ._palette import FAINT, INK, OTHERS, TRANSITION, phase_color
 from ._style import COLUMN, LINE, MARK, legend, name_axis, new_axes, small
 
+_Draw: TypeAlias = Callable[[Axes, Course, Array, Array], None]
 _REACTIONS = [(name, rf"$\mathregular{{{name[0]}_{{{name[1:]}}}}}$", unit) for name, unit in (("f0x", "{}N"), ("f0y", "{}N"), ("m0z", "{}N·m"))]
 # The line behind another one where a contact sticks.
 _STICKS: dict[str, Any] = {"linewidth": 5.0, "alpha": 0.35, "solid_capstyle": "butt"}
@@ -44,17 +45,9 @@ def reactions(source: Source, axes: Sequence[Axes] | None = None, *, over: Over 
     -------
     list of matplotlib.axes.Axes
     """
-    made = axes is None
-    axes = _three(axes)
     found = course(source)
-    along, *label = found.over(over)
-    for ax, (name, text, unit) in zip(axes, _REACTIONS):
-        _draw(ax, found, along, found.rows[name])
-        name_axis(ax.yaxis, text, unit, numbers=5)
-    _name_phases(axes[0], along, found)
-    _name_abscissa(axes, *label)
-    if made:
-        legend(axes[0])
+    axes = _stack(found, axes, over, _draw)
+    _name_phases(axes[0], found.over(over)[0], found)
     return axes
 
 
@@ -75,17 +68,21 @@ def hysteresis(source: Source, axes: Sequence[Axes] | None = None) -> list[Axes]
     -------
     list of matplotlib.axes.Axes
     """
-    made = axes is None
-    axes = _three(axes)
     found = course(source)
-    along, *label = found.over(found.coordinate())
-    for ax, (name, text, unit) in zip(axes, _REACTIONS):
-        _draw_passes(ax, found, along, found.rows[name])
+    return _stack(found, axes, found.coordinate(), _draw_passes)
+
+
+def _stack(found: Course, axes: Sequence[Axes] | None, over: Over | None, draw: _Draw) -> list[Axes]:
+    """Draws the three reactions."""
+    along, *label = found.over(over)
+    drawn = _three(axes)
+    for ax, (name, text, unit) in zip(drawn, _REACTIONS):
+        draw(ax, found, along, found.rows[name])
         name_axis(ax.yaxis, text, unit, numbers=5)
-    _name_abscissa(axes, *label)
-    if made:
-        legend(axes[0])
-    return axes
+    _name_abscissa(drawn, *label)
+    if axes is None:
+        legend(drawn[0])
+    return drawn
 
 
 def criterion(source: Scan | Reconstruction, ax: Axes | None = None, *, over: Over | None = None) -> Axes:
@@ -206,7 +203,7 @@ def _name_abscissa(axes: Sequence[Axes], name: str, unit: str) -> None:
 
 def _draw(ax: Axes, found: Course, along: Array, values: Array) -> None:
     """A quantity, coloured by phase, with the marks."""
-    if not found.rows["phase"].astype(bool).any():
+    if not (found.rows["phase"] != "").any():
         _draw_passes(ax, found, along, values)
         return
     for a, b, _ in (run for run in runs(found.rows["sticks"]) if run[2]):

@@ -19,6 +19,8 @@ from ._style import AT_TRANSITION, COLUMN, CONTOUR, LINE, SHAPE, legend, name_ax
 
 # Room for the numbers and names of axes, and least and largest height of a figure, mm.
 _BESIDE, _BELOW, _HEIGHTS = 14.0, 16.0, (45.0, 130.0)
+# Dashes and gaps, in widths of the line.
+_DASHED = (0, (5.0, 3.0))
 # x_min, x_max, y_min, y_max, m.
 Window = tuple[float, float, float, float]
 
@@ -40,17 +42,14 @@ def shapes(scan: Scan, ax: Axes | None = None, *, most: int = 60) -> Axes:
     matplotlib.axes.Axes
     """
     curves, window = _curves(scan, most)
-    made = ax is None
+    is_own = ax is None
     ax = ax or _new_axes(window)
     object_outline(ax, scan.objects, window)
     named = set()
     for curve, (name, style) in curves:
         ax.plot(curve[:, 0], curve[:, 1], label=None if name in named else name, **style)
         named.add(name)
-    _show(ax, window)
-    if made:
-        legend(ax)
-    return ax
+    return _shown(ax, window, is_own)
 
 
 def _curves(scan: Scan, most: int) -> tuple[list[tuple[Array, tuple[str, dict[str, Any]]]], Window]:
@@ -66,7 +65,7 @@ def _curves(scan: Scan, most: int) -> tuple[list[tuple[Array, tuple[str, dict[st
         event, style = scan.event(int(k)), {"color": TRANSITION, "linewidth": AT_TRANSITION}
         curves.append((event.before.shape(scan.rod, 200), ("at a transition", style)))
         if event.kind == "snap":
-            curves.append((event.after.shape(scan.rod, 200), ("after a snap", {**style, "linestyle": (0, (4.0, 2.5))})))
+            curves.append((event.after.shape(scan.rod, 200), ("after a snap", {**style, "linestyle": _DASHED})))
     clamps = np.column_stack([scan.states["x0"], scan.states["y0"]])
     return curves, _window(np.concatenate([clamps, *(curve[:, :2] for curve, _ in curves)]), scan.objects)
 
@@ -93,13 +92,16 @@ def _new_axes(window: Window) -> Axes:
     return new_axes(COLUMN, min(max(height, _HEIGHTS[0]), _HEIGHTS[1]))[0]
 
 
-def _show(ax: Axes, window: Window) -> None:
-    """Shows a window, with a metre as long along y as along x."""
+def _shown(ax: Axes, window: Window, is_own: bool) -> Axes:
+    """The axes, with a window in which a metre is as long along y as along x."""
     ax.set_xlim(window[0], window[1])
     ax.set_ylim(window[2], window[3])
     ax.set_aspect("equal")
     name_axis(ax.xaxis, "x", "{}m", [ax.yaxis])
     name_axis(ax.yaxis, "y", "{}m", [ax.xaxis])
+    if is_own:
+        legend(ax)
+    return ax
 
 
 def object_outline(ax: Axes, objects: Sequence[Composite], window: Window | None = None, **style: Any) -> None:
@@ -193,14 +195,18 @@ def elastica(found: list[Elastica], ax: Axes | None = None) -> Axes:
     matplotlib.axes.Axes
     """
     window = _window(np.concatenate([np.zeros((0, 2)), *(one.points[:, 1:3] for one in found)]), (), margin=0.1)
+    is_own = ax is None
     ax = ax or _new_axes(window)
     tips = np.array([one.tip[:2] for one in found])
     held = len(found) > 1 and bool(np.ptp(tips, axis=0).max() < 1e-9 * found[0].rod.length)
+    named: set[str] = set()
     for one in reversed(found):
         points = one.points
         color = OTHERS[one.branch % len(OTHERS)]
-        style: dict[str, Any] = {"linewidth": LINE} if one.stable else {"linewidth": 0.8, "linestyle": (0, (4.0, 2.5))}
-        ax.plot(points[:, 1], points[:, 2], color=color, **style)
+        style: dict[str, Any] = {"linewidth": LINE} if one.stable else {"linewidth": 0.8, "linestyle": _DASHED}
+        name = "stable" if one.stable else "unstable"
+        ax.plot(points[:, 1], points[:, 2], color=color, label=None if name in named else name, **style)
+        named.add(name)
         # all tips that are held are at one place
         x, y, phi = points[len(points) // 2, 1:4] if held else one.tip
         side = math.pi / 2 if held else 0.0
@@ -210,8 +216,7 @@ def elastica(found: list[Elastica], ax: Axes | None = None) -> Axes:
     for x, y, phi in {one.pose for one in found}:
         # a plate across the rod
         ax.plot([x], [y], marker=(2, 2, math.degrees(phi)), markersize=9.0, markeredgewidth=1.0, color=INK)
-    _show(ax, window)
-    return ax
+    return _shown(ax, window, is_own and len(named) > 1)
 
 
 def contour(
@@ -238,7 +243,7 @@ def contour(
     """
     rows = found.contour
     window = _window(np.column_stack([rows["x"], rows["y"]]), ())
-    made = ax is None
+    is_own = ax is None
     ax = ax or _new_axes(window)
     named: set[str] = set()
     for stretch in np.unique(rows["stretch"]):
@@ -252,15 +257,16 @@ def contour(
         ax.plot(x, y, color=color, linewidth=LINE, label=None if label in named else label)
         named.add(label)
     _draw_fit(ax, found)
-    if objects:
-        object_outline(ax, objects, window, linestyles=[(0, (5.0, 3.0))], linewidths=0.8)
-        ax.plot([], [], color=INK, linewidth=0.8, linestyle=(0, (5.0, 3.0)), label="true contour")
+    _draw_truth(ax, objects, window)
     if not len(rows):
         ax.text(0.5, 0.5, "no contact points", transform=ax.transAxes, ha="center", va="center")
-    _show(ax, window)
-    if made:
-        legend(ax)
-    return ax
+    return _shown(ax, window, is_own)
+
+
+def _draw_truth(ax: Axes, objects: Sequence[Composite], window: Window) -> None:
+    object_outline(ax, objects, window, linestyles=[_DASHED], linewidths=0.8)
+    if objects:
+        ax.plot([], [], color=INK, linewidth=0.8, linestyle=_DASHED, label="true contour")
 
 
 # The contacts of a contour: colours and names.
@@ -322,7 +328,7 @@ def notches(
     x, y = np.concatenate([x, naive["x"][wrong]]), np.concatenate([y, naive["y"][wrong]])
     around = margin * length
     window: Window = (x.min() - around, x.max() + around, y.min() - around, y.max() + around)
-    made = ax is None
+    is_own = ax is None
     ax = ax or _new_axes(window)
     clouds: list[tuple[Any, Any, str, dict[str, Any]]] = [
         (rows["x"][~two], rows["y"][~two], "one contact", {"color": FAINT}),
@@ -332,10 +338,5 @@ def notches(
     ]
     for place_x, place_y, label, style in clouds:
         ax.plot(place_x, place_y, "o", markersize=2.0, markeredgewidth=0.5, label=label, **style)
-    if objects:
-        object_outline(ax, objects, window, linestyles=[(0, (5.0, 3.0))], linewidths=0.8)
-        ax.plot([], [], color=INK, linewidth=0.8, linestyle=(0, (5.0, 3.0)), label="true contour")
-    _show(ax, window)
-    if made:
-        legend(ax)
-    return ax
+    _draw_truth(ax, objects, window)
+    return _shown(ax, window, is_own)

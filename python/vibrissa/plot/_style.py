@@ -59,21 +59,13 @@ def style() -> AbstractContextManager[None]:
 def new_axes(width: float, height: float, rows: int = 1) -> list[Axes]:
     """Axes above each other with one abscissa, in a figure of this size in mm."""
     with style():
-        axes = new_figure(width, height).subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
-        return with_ticks(list(axes))
+        return list(new_figure(width, height).subplots(rows, 1, sharex=True, squeeze=False)[:, 0])
 
 
 def new_figure(width: float, height: float) -> Figure:
     """A figure of this size in mm."""
     layout = ConstrainedLayoutEngine(w_pad=0.03, h_pad=0.03, hspace=0.0, wspace=0.04)
     return plt.figure(figsize=(width / 25.4, height / 25.4), layout=layout)
-
-
-def with_ticks(axes: list[Axes]) -> list[Axes]:
-    """The same axes, each with a first tick: others copy its style, also after the settings have changed."""
-    for axis in (axis for ax in axes for axis in (ax.xaxis, ax.yaxis)):
-        axis.get_major_ticks(1)
-    return axes
 
 
 def small(ax: Axes) -> FontProperties:
@@ -138,7 +130,6 @@ def name_axis(axis: Axis, name: str, unit: str, alike: Sequence[Axis] = (), numb
     Without a place for a prefix, as in ``"degrees"``, the unit stays as it is; without a name there is only the scale. ``numbers`` is the largest count
     of them; without it as many as there is room for.
     """
-    axis.get_major_ticks(1)
     axis.set_major_locator(MaxNLocator(numbers or "auto", steps=[1, 2, 5, 10]))
     formatter = _Prefixed(name, unit, [axis, *alike])
     if name:

@@ -13,7 +13,7 @@ from ._along import reactions
 from ._course import course
 from ._palette import INK, phase_color
 from ._plane import Window, _curves, shapes
-from ._style import LINE, PAGE, legend, new_figure, style, with_ticks
+from ._style import LINE, PAGE, legend, new_figure, style
 
 
 def sweep(scan: Scan) -> list[Axes]:
@@ -47,7 +47,7 @@ def _beside_each_other(window: Window) -> list[Axes]:
         right = [top, *(figure.add_subplot(grid[row, 1], sharex=top) for row in (1, 2))]
         for ax in right[:2]:
             ax.tick_params(labelbottom=False)
-        return with_ticks([figure.add_subplot(grid[:, 0]), *right])
+        return [figure.add_subplot(grid[:, 0]), *right]
 
 
 def animate(scan: Scan, *, frames: int = 120, interval: float = 50.0) -> FuncAnimation:
