@@ -78,7 +78,7 @@ def _stack(found: Course, axes: Sequence[Axes] | None, over: Over | None, draw: 
     drawn = _three(axes)
     for ax, (name, text, unit) in zip(drawn, _REACTIONS):
         draw(ax, found, along, found.rows[name])
-        name_axis(ax.yaxis, text, unit, numbers=5)
+        name_axis(ax.yaxis, text, unit, numbers=6)
     _name_abscissa(drawn, *label)
     if axes is None:
         legend(drawn[0])
@@ -114,7 +114,7 @@ def criterion(source: Scan | Reconstruction, ax: Axes | None = None, *, over: Ov
     along, *label = found.over(over)
     _draw(ax, found, along, values)
     _name_phases(ax, along, found)
-    name_axis(ax.yaxis, _CRITERION, "({}N·m)²", numbers=5)
+    name_axis(ax.yaxis, _CRITERION, "({}N·m)²", numbers=6)
     _name_abscissa([ax], *label)
     return ax
 
@@ -180,7 +180,7 @@ def forces(found: Forces, axes: Sequence[Axes] | None = None, *, rate: float | N
         for part in np.split(np.arange(len(rows)), np.flatnonzero(np.diff(rows["frame"]) > 1) + 1):
             ax.plot(at[part], values[part], color=OTHERS[0], linewidth=0.8, marker=".", markersize=2.5)
         ax.axhline(0.0, color=FAINT, linewidth=MARK, zorder=0)
-        name_axis(ax.yaxis, text, unit, numbers=5)
+        name_axis(ax.yaxis, text, unit, numbers=6)
     _name_abscissa(axes, *(("time", "{}s") if rate else ("frame", "")))
     return axes
 
