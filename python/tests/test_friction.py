@@ -238,6 +238,8 @@ def test_the_figure_marks_where_contacts_stick(loop: vibrissa.Scan) -> None:
     assert figure is not None
     names = [text.get_text() for text in figure.legends[0].get_texts()]
     assert names == ["leg 0 \u2190", "leg 1 \u2192", "a contact sticks or rolls"]
+    # -40 to 80 mm, by the size of the numbers in the style, not by that of the settings
+    assert len(axes[-1].get_xticks()) >= 7
     # from the turn of the clamp to the event
     slips = float(loop.events["x0"][loop.events["kind"] == "slip"][0])
     for ax in axes:

@@ -130,6 +130,8 @@ def name_axis(axis: Axis, name: str, unit: str, alike: Sequence[Axis] = (), numb
     Without a place for a prefix, as in ``"degrees"``, the unit stays as it is; without a name there is only the scale. ``numbers`` is the largest count
     of them; without it as many as there is room for.
     """
+    # the locator asks for the size of numbers when they are drawn, perhaps outside of the style
+    axis.set_tick_params(labelsize=axis.get_major_ticks(1)[0].label1.get_fontsize())
     axis.set_major_locator(MaxNLocator(numbers or "auto", steps=[1, 2, 5, 10]))
     formatter = _Prefixed(name, unit, [axis, *alike])
     if name:
