@@ -31,9 +31,8 @@ def way(*positions):
 
 def loop(out):
     scan = vibrissa.sweep(ROD, O1, way(0.08, -0.04, 0.08), 1e-4, friction=MU)
-    figure, axes = plt.subplots(3, 1, sharex=True, figsize=(140 / 25.4, 150 / 25.4), layout="constrained")
-    plot.hysteresis(scan, axes)
-    figure.savefig(out / "hysteresis.svg", metadata={"Date": None})
+    axes = plot.hysteresis(scan)
+    axes[0].figure.savefig(out / "hysteresis.svg", metadata={"Date": None})
     print(f"loop from 80 mm to -40 mm and back: friction takes {1e3 * scan.dissipated:.3f} mJ")
     for event in scan.events:
         print(f"  leg {event['leg']}: {event['kind']} at {1e3 * event['x0']:.3f} mm, {event['from']} to {event['to']}")
@@ -96,7 +95,7 @@ def whisking():
 
 
 if __name__ == "__main__":
-    plt.rcParams.update({"font.size": 8, "svg.hashsalt": "vibrissa"})
+    plt.rcParams["svg.hashsalt"] = "vibrissa"
     loop(Path(sys.argv[1]))
     amplitudes()
     dither()

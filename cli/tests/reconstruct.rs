@@ -164,9 +164,10 @@ fn a_clean_recording_gives_the_contour_back() {
 
     let contour = fs::read_to_string(directory.path().join("out/r/contour.csv")).unwrap();
     assert!(contour.starts_with("stretch,kind,x,y,alpha,sigma,sigma_systematic\n0,single,"), "{}", &contour[..200]);
-    for (figure, parts) in
-        [("contour.svg", ["true contour", "second of several"]), ("phases.svg", ["K in (N mm)", "7 kinks and jumps"])]
-    {
+    for (figure, parts) in [
+        ("contour.svg", ["true contour", "second of several"]),
+        ("phases.svg", ["K in (N mm)", "7 kinks and jumps; K = m"]),
+    ] {
         let drawing = fs::read_to_string(directory.path().join("out/r").join(figure)).unwrap();
         assert!(parts.iter().all(|part| drawing.contains(part)), "{figure}");
         assert!(!drawing.contains("NaN") && !drawing.contains("inf"), "{figure}");

@@ -13,11 +13,11 @@
 # %%
 import math
 
-import matplotlib.pyplot as plt
 import numpy as np
 import numpy.typing as npt
 
 import vibrissa
+import vibrissa.plot
 
 LENGTH, STEP = 0.1, 1e-3  # m
 SIGMA = np.array([2.5e-3, 2.5e-3, 6e-5])  # N, N, N m
@@ -74,12 +74,10 @@ for name, value, deviation in zip(truth, parameters, deviations):
     assert abs(value - truth[name]) < 4 * deviation
 print(f"chi^2 = {residuals @ residuals:.1f} of {len(residuals)} residuals")
 
+# %% [markdown]
+# The fitted reactions, coloured by phase, and the measured ones as dots.
+
 # %%
-figure, axes = plt.subplots(3, 1, sharex=True, layout="constrained")
-scan = model(*parameters).sweep()
-for ax, name, unit_name, factor in zip(axes, ["f0x", "f0y", "m0z"], ["mN", "mN", "mN m"], [1e3, 1e3, 1e3]):
-    ax.plot(1e3 * measured["x0"], factor * measured[name], ".", label="measured")
-    ax.plot(1e3 * scan.states["x0"], factor * scan.states[name], label="fitted")
-    ax.set_ylabel(f"{name} in {unit_name}")
-axes[0].legend(frameon=False)
-axes[-1].set_xlabel("$x_0$ in mm")
+axes = vibrissa.plot.reactions(model(*parameters).sweep())
+for ax, name in zip(axes, ["f0x", "f0y", "m0z"]):
+    ax.plot(measured["x0"], measured[name], ".", color="black", markersize=2, zorder=3)

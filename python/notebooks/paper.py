@@ -33,24 +33,27 @@ for name, scan in scans.items():
 # %% [markdown]
 # ## Shapes
 #
-# Rows are objects, columns are distances of the clamp. Dark shapes are those just before a transition.
+# Rows are objects, columns are distances of the clamp. Dark shapes are those just before a transition. Figures with several panels are yours: give each
+# function its axes. `style` has fonts and sizes for a journal.
 
 # %%
-figure, grid = plt.subplots(3, 3, figsize=(13, 11), layout="constrained")
-for (name, scan), ax in zip(scans.items(), grid.flat):
-    vibrissa.plot.shapes(scan, ax, most=30)
-    ax.set_title(name, fontsize="small")
+with vibrissa.plot.style():
+    figure, grid = plt.subplots(3, 3, figsize=(8, 6.5), layout="constrained")
+    for (name, scan), ax in zip(scans.items(), grid.flat):
+        vibrissa.plot.shapes(scan, ax, most=30)
+        ax.set_title(name)
 
 # %% [markdown]
 # ## Reactions
 
 # %%
-for number in (1, 2, 3):
-    figure, grid = plt.subplots(3, 3, figsize=(13, 8), layout="constrained")
-    for column, distance in zip(grid.T, (20, 40, 60)):
-        name = f"O{number}_q{distance}"
-        vibrissa.plot.reactions(scans[name], list(column))
-        column[0].set_title(name, fontsize="small", pad=18)
+with vibrissa.plot.style():
+    for number in (1, 2, 3):
+        figure, grid = plt.subplots(3, 3, figsize=(8, 5), sharex="col", layout="constrained")
+        for column, distance in zip(grid.T, (20, 40, 60)):
+            name = f"O{number}_q{distance}"
+            vibrissa.plot.reactions(scans[name], list(column))
+            column[0].set_title(name, pad=22)
 
 # %% [markdown]
 # ## Criterion
@@ -58,7 +61,8 @@ for number in (1, 2, 3):
 # It is zero while the last contact is along the rod, and negative while it is at the tip.
 
 # %%
-figure, grid = plt.subplots(3, 3, figsize=(13, 8), layout="constrained")
-for (name, scan), ax in zip(scans.items(), grid.flat):
-    vibrissa.plot.criterion(scan, ax)
-    ax.set_title(name, fontsize="small", pad=18)
+with vibrissa.plot.style():
+    figure, grid = plt.subplots(3, 3, figsize=(8, 6), layout="constrained")
+    for (name, scan), ax in zip(scans.items(), grid.flat):
+        vibrissa.plot.criterion(scan, ax)
+        ax.set_title(name, pad=22)

@@ -142,7 +142,8 @@ def test_what_an_equilibrium_has(wire: vibrissa.Rod) -> None:
     [free] = vibrissa.elastica(wire, (0.0, 0.0, 0.3))
     assert free.energy == 0.0 and free.stable and free.tip[2] == pytest.approx(0.3)
     ax = vibrissa.plot.elastica(found)
-    assert len(ax.lines) == 2 and [text.get_text() for text in ax.texts] == ["1", "0"]
+    # two shapes and the clamp
+    assert len(ax.lines) == 3 and [text.get_text() for text in ax.texts] == ["1", "0"]
 
 
 def test_wrong_arguments(wire: vibrissa.Rod) -> None:

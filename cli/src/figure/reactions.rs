@@ -49,7 +49,9 @@ pub(crate) fn reactions(found: &Reconstructed) -> Result<String, FigureError> {
             1 => "1 kink or jump".to_owned(),
             kinks => format!("{kinks} kinks and jumps"),
         };
-        write(&head, &format!("vertical lines: {kinks}"), (24, 80), HPos::Left, BODY, MUTED)?;
+        let definition =
+            if uniform.is_some() { "; K = m_{0z}² − 2 EI (f_{0y} sin φ_{0} + f_{0x} cos φ_{0})" } else { "" };
+        write(&head, &format!("vertical lines: {kinks}{definition}"), (24, 80), HPos::Left, BODY, MUTED)?;
         let trace = |(name, quantity)| (name, parts(found, abscissa, &along.across, quantity));
         trace::stack(root, &rest, &along, PLOT, quantities.into_iter().map(trace).collect())
     })
