@@ -6,7 +6,7 @@ use crate::recording_arguments::{Moved, Written};
 use crate::values::{degrees, directory, friction, no_quiet, not_negative, number, positive, seed};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use rod_files::SensorAddress;
+use rod_files::{SensorAddress, Whisker};
 use std::path::PathBuf;
 use vibrissa::reconstruct::Friction;
 use vibrissa_cli::{FakeProtocol, FirstScene};
@@ -212,15 +212,19 @@ pub struct First {
     /// A rod past an object with straight edges
     #[arg(long)]
     polygon: bool,
+    /// An average whisker of a rat, by row and column as C2, or of a mouse as mouse:C2, that turns past a peg and back
+    #[arg(long, value_name = "WHISKER")]
+    whisker: Option<Whisker>,
 }
 
 impl First {
     /// The scene that is asked for.
-    pub fn scene(&self) -> FirstScene {
-        match (self.whisking, self.recording, self.polygon) {
-            (true, ..) => FirstScene::Whisking,
-            (_, true, _) => FirstScene::Recording,
-            (.., true) => FirstScene::Polygon,
+    pub fn scene(self) -> FirstScene {
+        match self {
+            Self { whisker: Some(whisker), .. } => FirstScene::Whisker(whisker),
+            Self { whisking: true, .. } => FirstScene::Whisking,
+            Self { recording: true, .. } => FirstScene::Recording,
+            Self { polygon: true, .. } => FirstScene::Polygon,
             _ => FirstScene::Ellipse,
         }
     }

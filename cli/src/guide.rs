@@ -17,6 +17,7 @@ pub const INIT: &str = "\
 Examples:
   vibrissa init bump.toml
   vibrissa init --whisking whisking.toml
+  vibrissa init --whisker C2 whisker.toml
 
 Next: `vibrissa sweep bump.toml`. A file that exists is never overwritten.";
 

@@ -50,7 +50,7 @@ fn main() -> ExitCode {
     let Arguments { quiet, command } = Arguments::parse();
     QUIET.store(quiet, Ordering::Relaxed);
     let result = match command {
-        Command::Init { file, first } => init(first.scene(), &file),
+        Command::Init { file, first } => init(&first.scene(), &file),
         Command::Shapes => print(shapes_list().as_bytes()),
         Command::Completions { shell } => completions(shell),
         Command::Man { command } => man(command.as_deref()),
@@ -88,7 +88,7 @@ fn is_broken_pipe(error: &io::Error) -> bool {
     }
 }
 
-fn init(first: FirstScene, file: &Path) -> Result<ExitCode, Error> {
+fn init(first: &FirstScene, file: &Path) -> Result<ExitCode, Error> {
     first.write(file)?;
     let file = file.display();
     say(&format!("written to {file}; next: vibrissa sweep {file}\n"));

@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 //!
 //! `toml_file` reads TOML with errors that name the place. `scene`, `setup`, `noise_file` and `study` are such files; `recording` is a table of
-//! samples, `film` one of points on the rod and the forces from them, and `live` reads a sensor or a raw recording of one. `elastica` is a rod without contacts, `scan` sweeps a scene, `simulation` records it, `reconstructed` turns a
+//! samples, `film` one of points on the rod and the forces from them, and `live` reads a sensor or a raw recording of one. `elastica` is a rod without contacts, `whisker` average whiskers, `scan` sweeps a scene, `simulation` records it, `reconstructed` turns a
 //! recording back. `output` writes files that appear when they are complete.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
@@ -28,6 +28,7 @@ mod study;
 pub mod table;
 mod toml_file;
 
+mod whisker;
 pub use cycle::{CYCLES, Cycle};
 pub use elastica::ElasticaRun;
 pub use film::{AtRestError, Ends, FilmError, FilmForces, FilmOptions, channels_of_columns};
@@ -58,3 +59,4 @@ pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup,
 pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};
 pub use study::{Measured, Study, StudyError, StudyRow, StudyRun};
 pub use toml_file::{Invalid, SceneError};
+pub use whisker::{Animal, Whisker, WhiskerError, WhiskerSources, mean_curvature};
