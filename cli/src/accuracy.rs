@@ -15,7 +15,7 @@ const NOT_CALIBRATED: &str = "`calibrate` knows the errors of a uniform, straigh
      rod, as it is";
 
 pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
-    let Calibrate { recordings, rod, setup, noise, free, friction, out, moved, written } = arguments;
+    let Calibrate { recordings, rod, setup, noise, free, friction, file: out, moved, written } = arguments;
     signals::end();
     if crate::is_standard(&out) {
         return Err(OutputError::NoFile { file: out }.into());

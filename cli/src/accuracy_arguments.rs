@@ -34,8 +34,8 @@ pub struct Calibrate {
     #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = friction, default_value = "none")]
     pub friction: Friction,
     /// The TOML file of the calibrated rod; calibration.svg is written beside it
-    #[arg(long, value_name = "FILE")]
-    pub out: PathBuf,
+    #[arg(long, alias = "out", value_name = "FILE")]
+    pub file: PathBuf,
     #[command(flatten)]
     pub moved: Moved,
     #[command(flatten)]

@@ -127,8 +127,8 @@ pub enum Command {
         scene: PathBuf,
         /// The CSV file, or - for standard output; the drawing has the same name with .svg, none for - [default: out/<name of the
         /// scene>/contour.csv]
-        #[arg(long, value_name = "FILE")]
-        out: Option<PathBuf>,
+        #[arg(long, alias = "out", value_name = "FILE")]
+        file: Option<PathBuf>,
         /// Largest distance of a chord between two points from the contour, m [default: 1e-6 of the rod's length]
         #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
         tolerance: Option<f64>,
@@ -449,8 +449,8 @@ pub struct Simulate {
     #[arg(long)]
     pub sigmas: bool,
     /// The CSV file, or - for standard output [default: out/<name of the scene>/recording.csv]
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
+    #[arg(long, alias = "out", value_name = "FILE")]
+    pub file: Option<PathBuf>,
 }
 
 /// A sensor to be played.

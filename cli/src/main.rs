@@ -56,7 +56,7 @@ fn main() -> ExitCode {
         Command::Man { command } => man(command.as_deref()),
         Command::Sweep { scene, out } => sweep(&scene, out),
         Command::Elastica { file, out } => elastica(&file, out),
-        Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
+        Command::Contour { scene, file, tolerance, object } => contour(&scene, file, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
         Command::Inspect(arguments) => inspection::inspect(arguments),
         Command::Reconstruct(arguments) => reconstruction::reconstruct(arguments),
@@ -174,15 +174,15 @@ fn elastica(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
 }
 
 fn contour(
-    file: &Path,
-    out: Option<PathBuf>,
+    scene: &Path,
+    file: Option<PathBuf>,
     tolerance: Option<f64>,
     object: Option<usize>,
 ) -> Result<ExitCode, Error> {
     signals::end();
-    let scene = read_scene(file)?;
+    let scene = read_scene(scene)?;
     let profiles = scene.profiles(tolerance, object)?;
-    let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("contour.csv"));
+    let out = file.unwrap_or_else(|| Path::new("out").join(&scene.name).join("contour.csv"));
     let tell: fn(&str) = if is_standard(&out) { tell_beside } else { say };
     let written = if is_standard(&out) {
         write_profile_table(&profiles, &mut io::stdout().lock()).map_err(OutputError::Standard)?;
@@ -201,10 +201,10 @@ fn contour(
 }
 
 fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
-    let Simulate { scene, noise, rate, speed, seed, sigmas, out } = arguments;
+    let Simulate { scene, noise, rate, speed, seed, sigmas, file } = arguments;
     let scene = read_scene(&scene)?;
     scene.check_start()?;
-    let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
+    let out = file.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
     let standard = is_standard(&out);
     if !standard {
         check_output(&out, &noise.iter().cloned().collect::<Vec<_>>())?;

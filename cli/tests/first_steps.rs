@@ -132,7 +132,7 @@ fn the_commands_of_the_recording_scene_work() {
     assert!(directory.path().join("reconstruction/contour.svg").exists());
     let noise = text.lines().find_map(|line| line.strip_prefix("#   white")).unwrap();
     fs::write(directory.path().join("noise.toml"), format!("white{noise}\n")).unwrap();
-    let noisy = ["simulate", "scene.toml", "--noise", "noise.toml", "--seed", "1", "--sigmas", "--out", "noisy.csv"];
+    let noisy = ["simulate", "scene.toml", "--noise", "noise.toml", "--seed", "1", "--sigmas", "--file", "noisy.csv"];
     assert_eq!(run(&noisy).status.code(), Some(0));
 }
 

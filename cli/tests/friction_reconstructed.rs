@@ -33,7 +33,7 @@ fn friction_that_nobody_asked_for_is_never_silent() {
     for (mu, noise, how) in [(0.05, noisy, &[][..]), (0.1, &[], local), (0.3, noisy, local)] {
         let directory = directory(mu);
         let path = directory.path();
-        done(path, 0, &[&["simulate", "scene.toml", "--rate", "50", "--out", "r.csv"], noise].concat());
+        done(path, 0, &[&["simulate", "scene.toml", "--rate", "50", "--file", "r.csv"], noise].concat());
         let reconstruct = ["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml", "--out", "out"];
         let reconstruct = [&reconstruct[..], how].concat();
         let (_, complaint) = done(path, 2, &reconstruct);
@@ -53,7 +53,7 @@ fn friction_that_nobody_asked_for_is_never_silent() {
 fn errors_of_the_laboratory_hide_no_friction() {
     let directory = directory(0.05);
     let path = directory.path();
-    let record = ["simulate", "scene.toml", "--rate", "50", "--noise", "noise.toml", "--seed", "7", "--out", "r.csv"];
+    let record = ["simulate", "scene.toml", "--rate", "50", "--noise", "noise.toml", "--seed", "7", "--file", "r.csv"];
     done(path, 0, &record);
     for sign in [1.0, -1.0] {
         let mut text = String::from("t,x0,y0,phi0,f0x,f0y,m0z\n");
@@ -180,7 +180,7 @@ fn a_recording_there_and_back_is_compared_with_its_scene() {
     let path = directory.path();
     let scene = SCENE.replace("to = [-0.09, -0.04]", "to = [-0.055, -0.04]") + "\n[[sweep.leg]]\nto = [0.08, -0.04]\n";
     fs::write(path.join("scene.toml"), format!("{scene}\n[contact]\nfriction = 0.3\n")).unwrap();
-    done(path, 0, &["simulate", "scene.toml", "--rate", "50", "--out", "r.csv"]);
+    done(path, 0, &["simulate", "scene.toml", "--rate", "50", "--file", "r.csv"]);
     let reconstruct = ["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml", "--out", "out"];
     let (report, _) = done(path, 0, &[&reconstruct[..], &["--friction", "estimate"]].concat());
     println!("{report}");
@@ -206,7 +206,7 @@ fn a_recording_there_and_back_is_compared_with_its_scene() {
 fn a_wrong_coefficient_is_named() {
     let directory = directory(0.3);
     let path = directory.path();
-    done(path, 0, &["simulate", "scene.toml", "--rate", "50", "--noise", "noise.toml", "--out", "r.csv"]);
+    done(path, 0, &["simulate", "scene.toml", "--rate", "50", "--noise", "noise.toml", "--file", "r.csv"]);
     let reconstruct = |friction: &str, status: i32| {
         let options = ["reconstruct", "r.csv", "--rod", "scene.toml", "--out", "out", "--friction"];
         let (_, complaint) = done(path, status, &[&options[..], &[friction]].concat());
@@ -233,7 +233,7 @@ fn units_are_no_cause_of_what_friction_explains() {
     let path = directory.path();
     let scene = include_str!("../../scenes/O3_q40.toml");
     fs::write(path.join("scene.toml"), format!("{scene}\n[contact]\nfriction = 0.3\n")).unwrap();
-    done(path, 0, &["simulate", "scene.toml", "--rate", "20", "--out", "r.csv"]);
+    done(path, 0, &["simulate", "scene.toml", "--rate", "20", "--file", "r.csv"]);
     let (_, complaint) = done(path, 2, &["reconstruct", "r.csv", "--rod", "scene.toml", "--out", "out"]);
     assert!(complaint.contains("the contacts seem to rub: with friction mu = 0.3000"), "{complaint}");
     assert!(complaint.contains("tried: friction with mu = 0.30: 100 %"), "{complaint}");
@@ -249,7 +249,7 @@ fn a_live_scan_tells_of_friction() {
         let scene =
             fs::read_to_string(path.join("scene.toml")).unwrap().replace("friction = 0.3", &format!("friction = {mu}"));
         fs::write(path.join("of.toml"), scene).unwrap();
-        done(path, 0, &["simulate", "of.toml", "--rate", "50", "--noise", "noise.toml", "--out", "r.csv"]);
+        done(path, 0, &["simulate", "of.toml", "--rate", "50", "--noise", "noise.toml", "--file", "r.csv"]);
         let (said, _) = done(path, status, &live);
         let tells = said.contains("the contacts seem to rub: with friction mu = 0.3");
         assert!(tells == (status == 2), "{mu}: {said}");
@@ -267,7 +267,7 @@ fn a_piece_with_another_coefficient_is_told() {
     fs::write(path.join("scene.toml"), scene).unwrap();
     fs::write(path.join("noise.toml"), NOISE).unwrap();
     for noise in [[].as_slice(), &["--noise", "noise.toml"]] {
-        done(path, 0, &[&["simulate", "scene.toml", "--rate", "100", "--out", "r.csv"], noise].concat());
+        done(path, 0, &[&["simulate", "scene.toml", "--rate", "100", "--file", "r.csv"], noise].concat());
         let (_, complaint) = done(path, 2, &["reconstruct", "r.csv", "--rod", "scene.toml", "--friction", "estimate"]);
         assert!(complaint.contains("K over 2 |F| along tangential contacts varies by "), "{complaint}");
     }

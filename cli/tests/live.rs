@@ -197,7 +197,7 @@ fn over_a_pseudo_terminal_too() {
 fn a_recording_is_a_sensor_too() {
     let directory = prepared("");
     let dir = directory.path();
-    let output = vibrissa(dir, &["simulate", "scene.toml", "--rate", "2000", "--speed", "0.02", "--out", "clean.csv"]);
+    let output = vibrissa(dir, &["simulate", "scene.toml", "--rate", "2000", "--speed", "0.02", "--file", "clean.csv"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let (output, summary) = listen(dir, "file:clean.csv", &[]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
@@ -283,7 +283,7 @@ fn a_short_silence_is_not_the_end() {
 fn the_budget_and_the_calibration_are_used_and_told() {
     let directory = prepared("[errors]\nclamp_angle = 2.0\ngain = 0.02\n");
     let dir = directory.path();
-    let output = vibrissa(dir, &["simulate", "scene.toml", "--rate", "200", "--speed", "0.02", "--out", "clean.csv"]);
+    let output = vibrissa(dir, &["simulate", "scene.toml", "--rate", "200", "--speed", "0.02", "--file", "clean.csv"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let rod = "[rod]\nlength = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n\
                [calibration]\nlever_along = { value = 1e-3, sigma = 1e-5, unit = \"m\" }\n";

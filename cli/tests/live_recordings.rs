@@ -33,7 +33,7 @@ fn felt() -> Felt {
     fs::copy(data("data/turned.cal"), dir.join("turned.cal")).unwrap();
     let output = vibrissa(
         dir,
-        &["simulate", "scene.toml", "--noise", "noise.toml", "--rate", "1000", "--speed", "0.02", "--out", "felt.csv"],
+        &["simulate", "scene.toml", "--noise", "noise.toml", "--rate", "1000", "--speed", "0.02", "--file", "felt.csv"],
     );
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let scene = Scene::read(&dir.join("scene.toml")).unwrap();

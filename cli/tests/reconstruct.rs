@@ -37,7 +37,7 @@ fn recorded(arguments: &[&str]) -> tempfile::TempDir {
     for (name, text) in [("O1_q40.toml", SCENE), ("noise.toml", NOISE), ("rod.toml", ROD)] {
         fs::write(directory.path().join(name), text).unwrap();
     }
-    let all = [&["simulate", "O1_q40.toml", "--out", "r.csv"], arguments].concat();
+    let all = [&["simulate", "O1_q40.toml", "--file", "r.csv"], arguments].concat();
     let output = vibrissa(directory.path(), &all);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     directory
@@ -221,7 +221,7 @@ fn kinks_within_a_phase_are_told() {
     for (name, text) in [("scene.toml", include_str!("../../scenes/O2_q40.toml")), ("noise.toml", NOISE)] {
         fs::write(directory.path().join(name), text).unwrap();
     }
-    let simulate = "simulate scene.toml --noise noise.toml --rate 100 --speed 0.005 --seed 3 --out r.csv";
+    let simulate = "simulate scene.toml --noise noise.toml --rate 100 --speed 0.005 --seed 3 --file r.csv";
     assert!(vibrissa(directory.path(), &simulate.split(' ').collect::<Vec<_>>()).status.success());
     let reconstruct = ["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml"];
     let output = vibrissa(directory.path(), &[&reconstruct[..], &["--local"]].concat());
@@ -242,7 +242,7 @@ fn kinks_within_a_phase_are_told() {
     assert_eq!(labels, ["free", "A", "B", "BB", "B", "A", "free"]);
     assert!(found["truth"]["single"]["largest"].as_f64().unwrap() < 5e-4, "{}", found["truth"]);
     let exact =
-        vibrissa(directory.path(), &["simulate", "scene.toml", "--rate", "100", "--speed", "0.005", "--out", "r.csv"]);
+        vibrissa(directory.path(), &["simulate", "scene.toml", "--rate", "100", "--speed", "0.005", "--file", "r.csv"]);
     assert!(exact.status.success());
     let output = vibrissa(directory.path(), &["reconstruct", "r.csv", "--rod", "scene.toml"]);
     assert!(!complaint(&output).contains("within phase B"), "{}", complaint(&output));
@@ -334,7 +334,7 @@ fn a_recording_without_a_contact_says_why_it_has_no_contour() {
     fs::write(directory.path().join("noise.toml"), NOISE).unwrap();
     let run = |arguments: &[&str]| vibrissa(directory.path(), arguments).status.code();
     let simulate =
-        ["simulate", "free.toml", "--noise", "noise.toml", "--rate", "100", "--speed", "0.001", "--out", "r.csv"];
+        ["simulate", "free.toml", "--noise", "noise.toml", "--rate", "100", "--speed", "0.001", "--file", "r.csv"];
     assert_eq!(run(&simulate), Some(0));
     assert_eq!(run(&["reconstruct", "r.csv", "--rod", "free.toml"]), Some(0));
     let figure = fs::read_to_string(directory.path().join("out/r/contour.svg")).unwrap();

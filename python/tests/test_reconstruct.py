@@ -75,7 +75,7 @@ def test_simulated_and_reconstructed_as_by_the_command(
     file = tmp_path / "recording.csv"
     options = ["--noise", str(tmp_path / "noise.toml"), "--rate", "500", "--speed", "0.01", "--seed", "3"]
     subprocess.run(
-        [*command, "simulate", str(SCENES / "O1_q40.toml"), *options, "--out", str(file)], check=True, capture_output=True
+        [*command, "simulate", str(SCENES / "O1_q40.toml"), *options, "--file", str(file)], check=True, capture_output=True
     )
     samples = vibrissa.simulate(scene, rate=500.0, speed=0.01, noise=NOISE, seed=3)
     rows = list(csv.DictReader(file.open()))
