@@ -5,6 +5,7 @@
 //! recording back. `output` writes files that appear when they are complete.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+mod clamp_columns;
 mod cycle;
 mod elastica;
 mod film;
