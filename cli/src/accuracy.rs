@@ -59,6 +59,7 @@ pub fn expect(arguments: Expect) -> Result<ExitCode, Error> {
     let noise = noise.map(|file| read_noise(&file)).transpose()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
     let staged = Staged::new(&out)?.keeping(inputs);
+    let speed = speed.of(&scene)?;
     let expected = BudgetStudy { scene, budget, noise, friction, rate, speed, runs, seed }.run()?;
     expected.write(&staged)?;
     staged.publish()?;

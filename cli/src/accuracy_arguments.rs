@@ -3,6 +3,7 @@
 use crate::recording_arguments::{Moved, Written};
 use crate::values::{directory, friction, seed};
 use clap::Args;
+use rod_files::Speed;
 use std::path::PathBuf;
 use vibrissa::reconstruct::Friction;
 use vibrissa_cli::Freed;
@@ -59,9 +60,9 @@ pub struct Expect {
     /// Samples in a second
     #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
     pub rate: f64,
-    /// Speed of the clamp: m/s, or rad/s where the clamp only turns
-    #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
-    pub speed: f64,
+    /// Speed of the clamp: a number in m/s, or in rad/s where the clamp only turns, or with a unit as "1 mm/s" or "10 deg/s"
+    #[arg(long, value_name = "SPEED", default_value = "1e-3", allow_negative_numbers = true)]
+    pub speed: Speed,
     /// Number of recordings with random errors
     #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = runs)]
     pub runs: usize,

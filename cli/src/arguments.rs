@@ -6,7 +6,7 @@ use crate::recording_arguments::{Moved, Written};
 use crate::values::{degrees, directory, friction, no_quiet, not_negative, number, positive, seed};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use rod_files::{SensorAddress, Whisker};
+use rod_files::{SensorAddress, Speed, Whisker};
 use std::path::PathBuf;
 use vibrissa::reconstruct::Friction;
 use vibrissa_cli::{FakeProtocol, FirstScene};
@@ -439,9 +439,9 @@ pub struct Simulate {
     /// Samples in a second; there is one every speed / rate of the clamp's way, and each of several legs has a whole number of them
     #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
     pub rate: f64,
-    /// Speed of the clamp: m/s, or rad/s where the clamp only turns, on all legs
-    #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
-    pub speed: f64,
+    /// Speed of the clamp on all legs: a number in m/s, or in rad/s where the clamp only turns, or with a unit as "1 mm/s" or "10 deg/s"
+    #[arg(long, value_name = "SPEED", default_value = "1e-3", allow_negative_numbers = true)]
+    pub speed: Speed,
     /// Seed of the noise: the same one gives the same recording
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = seed)]
     pub seed: u64,
@@ -464,9 +464,9 @@ pub struct FakeSensor {
     /// Samples in a second
     #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
     pub rate: f64,
-    /// Speed of the clamp: m/s, or rad/s where the clamp only turns
-    #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
-    pub speed: f64,
+    /// Speed of the clamp: a number in m/s, or in rad/s where the clamp only turns, or with a unit as "1 mm/s" or "10 deg/s"
+    #[arg(long, value_name = "SPEED", default_value = "1e-3", allow_negative_numbers = true)]
+    pub speed: Speed,
     /// How many times faster than real time to play
     #[arg(long, value_name = "TIMES", default_value_t = 1.0, allow_negative_numbers = true)]
     pub faster: f64,

@@ -210,6 +210,7 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
         check_output(&out, &noise.iter().cloned().collect::<Vec<_>>())?;
     }
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
+    let speed = speed.of(&scene)?;
     let simulation = Simulation { scene, noise, rate, speed, seed, sigmas };
     let caught = signals::ask();
     let tell: fn(&str) = if standard { tell_beside } else { say };
@@ -294,7 +295,7 @@ fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     scene.check_start()?;
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
-    let name = scene.name.clone();
+    let (name, speed) = (scene.name.clone(), speed.of(&scene)?);
     let interrupt = signals::ask().interrupt;
     let tell: &mut dyn FnMut(&str) = &mut |line| say(&format!("{line}\n"));
     let is_over = || interrupt.is_raised();

@@ -161,6 +161,25 @@ fn a_clamp_that_turns_does_so_in_radians() {
         assert!((row[3] - (120_f64.to_radians() - 0.01 * k as f64)).abs() < 1e-12);
         assert_eq!(row[0], k as f64 / 10.0);
     }
+    let simulated = |speed: &str| simulate(directory.path(), &["--rate", "10", "--speed", speed, "--file", "r.csv"]);
+    assert_eq!(simulated("6 deg/s").status.code(), Some(0));
+    assert_eq!(rows(&directory.path().join("r.csv")).len(), 101);
+    let message = complaint(&simulated("1 mm/s"));
+    assert!(message.contains("--speed is 1 mm/s, expected an angle per second: the clamp only turns"), "{message}");
+}
+
+#[test]
+fn a_speed_may_have_a_unit() {
+    let directory = prepared(SCENE, "");
+    let recorded = |speed: &str| {
+        let output = simulate(directory.path(), &["--rate", "4", "--speed", speed, "--file", "r.csv"]);
+        assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+        fs::read_to_string(directory.path().join("r.csv")).unwrap()
+    };
+    assert_eq!(recorded("2e-3"), recorded("2 mm/s"));
+    refuses(SCENE, "", &["--speed", "2 deg/s"], &["--speed is 2 deg/s, expected a length per second: the clamp moves"]);
+    let output = simulate(directory.path(), &["--speed", "2 mm"]);
+    assert!(output.status.code() == Some(2) && complaint(&output).contains("as 1 mm/s or 10 deg/s"));
 }
 
 #[test]
