@@ -28,8 +28,8 @@ mod simulation;
 mod study;
 pub mod table;
 mod toml_file;
-
 mod whisker;
+
 pub use cycle::{CYCLES, Cycle};
 pub use elastica::ElasticaRun;
 pub use film::{AtRestError, Ends, FilmError, FilmForces, FilmOptions, channels_of_columns};
@@ -47,8 +47,8 @@ pub use noise_file::read_noise;
 pub use output::{OutputError, Staged};
 pub use profile::{Profile, ProfileError, ProfilePoint, write_profile_table};
 pub use reconstructed::{
-    CONTOUR_COLUMNS, Comparison, FittedPoint, Reconstructed, ReconstructionError, Transition, TruthError, hardly_told,
-    naive_touch,
+    CONTOUR_COLUMNS, Comparison, FittedPoint, Reconstructed, ReconstructionError, Transition, TruthError,
+    confounders_text, naive_touch,
 };
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;

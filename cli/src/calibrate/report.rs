@@ -1,7 +1,7 @@
 //! A calibration in words.
 
 use super::result::RodCalibration;
-use rod_files::hardly_told;
+use rod_files::confounders_text;
 use rod_files::table::Table;
 use std::fmt::Write;
 use vibrissa::reconstruct::{Source, SourceEstimate};
@@ -41,7 +41,7 @@ impl RodCalibration {
             let _ = writeln!(text, "not told apart: {}", ties.join("; "));
         }
         for (number, (name, estimate)) in self.named().enumerate() {
-            let others = hardly_told(estimate.value, estimate.sigma, &self.combined.confused(number));
+            let others = confounders_text(estimate.value, estimate.sigma, &self.combined.confounders(number));
             if estimate.source == Source::Friction && !others.is_empty() {
                 let _ = writeln!(text, "{name}: mu = {:.4} +- {:.1e}{others}", estimate.value, estimate.sigma);
             }

@@ -56,14 +56,14 @@ impl Reconstructed {
         for (number, pass) in self.found.passes.iter().enumerate() {
             let Some(found) = pass.friction.filter(|_| pass.used_friction != 0.0) else { continue };
             let of = if self.found.passes.len() > 1 { format!(" of pass {}", number + 1) } else { String::new() };
-            let way = if found.mu < 0.0 { "pushed on over" } else { "drawn back over" };
-            let told = match (found.is_there(), found.is_told_apart()) {
+            let way = if found.mu < 0.0 { "pushed forward over" } else { "drawn back over" };
+            let told = match (found.is_significant(), found.is_identified()) {
                 (true, true) => "",
                 (true, false) => "; errors that all samples share would explain a part of it",
                 (false, _) => "; the scan is explained as well without",
             };
-            let others = pass.calibration.as_ref().map_or_else(Vec::new, |told| told.confused(Source::Friction));
-            let others = hardly_told(found.mu, found.sigma, &others);
+            let others = pass.calibration.as_ref().map_or_else(Vec::new, |told| told.confounders(Source::Friction));
+            let others = confounders_text(found.mu, found.sigma, &others);
             writeln!(
                 text,
                 "friction{of}: mu = {:.4} +- {:.1e} (by the noise alone {:.1e}), the rod {way} its contacts{told}{others}",
@@ -151,8 +151,8 @@ impl Reconstructed {
     }
 }
 
-/// From which sources friction is hardly told, in words: the parts of its variance that they are the reason of. Empty where it is well known.
-pub fn hardly_told(mu: f64, sigma: f64, others: &[(Source, f64)]) -> String {
+/// The sources that are poorly separated from friction, in words, with their shares of its variance. Empty where friction is well known.
+pub fn confounders_text(mu: f64, sigma: f64, others: &[(Source, f64)]) -> String {
     let named: Vec<String> =
         others.iter().map(|(source, part)| format!("{source} ({:.0} % of its variance)", 100.0 * part)).collect();
     if named.is_empty() || sigma < WELL_KNOWN * mu.abs() {
