@@ -37,7 +37,7 @@ fn friction_that_nobody_asked_for_is_never_silent() {
         let reconstruct = ["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml", "--out", "out"];
         let reconstruct = [&reconstruct[..], how].concat();
         let (_, complaint) = done(path, 2, &reconstruct);
-        assert!(complaint.contains("the contacts seem to rub: with friction mu = "), "{mu}: {complaint}");
+        assert!(complaint.contains("the contacts have friction: a coefficient mu = "), "{mu}: {complaint}");
         let (report, _) = done(path, 0, &[&reconstruct[..], &["--friction", "estimate"]].concat());
         let found = json(path, "out/report.json");
         let [estimate, sigma] = ["mu", "sigma"].map(|of| found["friction"][0][of].as_f64().unwrap());
@@ -67,7 +67,7 @@ fn errors_of_the_laboratory_hide_no_friction() {
         fs::write(path.join("p.csv"), text).unwrap();
         let reconstruct = ["reconstruct", "p.csv", "--rod", "scene.toml", "--local", "--out", "out"];
         let (_, complaint) = done(path, 2, &reconstruct);
-        assert!(complaint.contains("the contacts seem to rub: with friction mu = "), "{sign}: {complaint}");
+        assert!(complaint.contains("the contacts have friction: a coefficient mu = "), "{sign}: {complaint}");
         done(path, 0, &[&reconstruct[..], &["--friction", "estimate"]].concat());
         let found = json(path, "out/report.json");
         let [mu, sigma] = ["mu", "sigma"].map(|of| found["friction"][0][of].as_f64().unwrap());
@@ -170,7 +170,7 @@ fn a_contact_that_rolls_where_the_clamp_turns_has_no_point_that_is_off() {
     }
     // without friction it does not fit
     let (_, complaint) = done(path, 2, &[&options[..], &["none"]].concat());
-    assert!(complaint.contains("the contacts seem to rub"), "{complaint}");
+    assert!(complaint.contains("the contacts have friction"), "{complaint}");
 }
 
 /// Scenes with legs were refused as truth. A pose that is on both ways is compared with the way that the recording was on.
@@ -214,7 +214,7 @@ fn a_wrong_coefficient_is_named() {
     };
     for friction in ["0.1", "0.1+-0.02"] {
         let (complaint, alone) = reconstruct(friction, 2);
-        assert!(complaint.contains("friction with mu = 0.1000 was given, but the scan tells mu = "), "{complaint}");
+        assert!(complaint.contains("the given coefficient of friction is 0.1000, the recording gives "), "{complaint}");
         assert!(complaint.contains("friction with mu = 0.30: 100 %") && !complaint.contains(" mN"), "{complaint}");
         let [mu, sigma, given, deviation] = ["mu", "sigma", "given", "deviation"].map(|of| alone[of].as_f64().unwrap());
         let apart = (mu - given) / if friction == "0.1" { sigma } else { sigma.hypot(0.02) };
@@ -235,7 +235,7 @@ fn units_are_no_cause_of_what_friction_explains() {
     fs::write(path.join("scene.toml"), format!("{scene}\n[contact]\nfriction = 0.3\n")).unwrap();
     done(path, 0, &["simulate", "scene.toml", "--rate", "20", "--file", "r.csv"]);
     let (_, complaint) = done(path, 2, &["reconstruct", "r.csv", "--rod", "scene.toml", "--out", "out"]);
-    assert!(complaint.contains("the contacts seem to rub: with friction mu = 0.3000"), "{complaint}");
+    assert!(complaint.contains("the contacts have friction: a coefficient mu = 0.3000"), "{complaint}");
     assert!(complaint.contains("tried: friction with mu = 0.30: 100 %"), "{complaint}");
 }
 
@@ -251,10 +251,10 @@ fn a_live_scan_tells_of_friction() {
         fs::write(path.join("of.toml"), scene).unwrap();
         done(path, 0, &["simulate", "of.toml", "--rate", "50", "--noise", "noise.toml", "--file", "r.csv"]);
         let (said, _) = done(path, status, &live);
-        let tells = said.contains("the contacts seem to rub: with friction mu = 0.3");
+        let tells = said.contains("the contacts have friction: a coefficient mu = 0.3");
         assert!(tells == (status == 2), "{mu}: {said}");
         let summary = fs::read_to_string(path.join("out/summary.json")).unwrap();
-        assert_eq!(summary.contains("the contacts seem to rub"), tells);
+        assert_eq!(summary.contains("the contacts have friction"), tells);
     }
 }
 

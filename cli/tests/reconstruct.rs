@@ -302,8 +302,8 @@ fn wrong_units_and_another_rod_are_told_and_everything_is_written() {
         (
             1.0,
             0.8,
-            "the bending stiffness is 6.3200e-4 N m^2, the recording suggests 4.04",
-            "m0z is 0.800 times what it should be",
+            "the bending stiffness is 6.3200e-4 N m^2, the recording gives 4.04",
+            "m0z is 0.800 times the true value",
         ),
     ] {
         scaled(force, moment);
