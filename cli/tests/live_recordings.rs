@@ -199,7 +199,7 @@ fn what_of_a_recording_is_meant_must_be_said() {
     refuses(
         &tdms,
         &of("'Fx', 'Fy'"),
-        &["file:waveforms.tdms: nothing tells what its numbers are", "calibration or matrix"],
+        &["file:waveforms.tdms: the units of its numbers are unknown", "calibration or matrix"],
     );
     let scale = "[sensor]\nforce_unit = 'mN'\ntorque_unit = 'N m'\nchannels = ['Fx', 'Fy']\n";
     refuses(&tdms, &(of("'Fx', 'Fy'") + scale), &["samples before the end, expected at least 100"]);
@@ -296,7 +296,7 @@ fn volts_are_reconstructed_as_the_reactions_that_they_are_of() {
     assert!(100 * same > 99 * rows.len() && all > rows.len() / 3 && 100 * near > 99 * all, "{same} {all} {near}");
 
     for (arguments, parts) in [
-        (&["--setup", "setup.toml"][..], &["file:volts.tdms: nothing tells where the clamp is; give --stage"][..]),
+        (&["--setup", "setup.toml"][..], &["file:volts.tdms: the poses of the clamp are missing; give --stage"][..]),
         (&STAGE[..], &["volts.tdms: expected group = .. in the table [recording] of a setup", "`Measured`"]),
         (
             &["--setup", "wrong.toml", "--stage", "constant:0.02"],

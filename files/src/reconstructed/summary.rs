@@ -30,8 +30,8 @@ impl Reconstructed {
         let Answered { single, single_answered, several, first_answered, second_answered } = Answered::of(self);
         writeln!(
             text,
-            "points: {single_answered} of {single} samples with one contact; of {several} with several the first of \
-             {first_answered}, the second of {second_answered}"
+            "contact points: in {single_answered} of {single} samples with one contact; of {several} samples with several contacts, the \
+             first in {first_answered}, the second in {second_answered}"
         )?;
         let (kinks, gaps) = (self.found.kinks.len(), self.contour.gaps.len());
         writeln!(text, "{}, {}", counted(kinks, "kink"), counted(gaps, "gap"))?;
@@ -59,8 +59,8 @@ impl Reconstructed {
             let way = if found.mu < 0.0 { "pushed forward over" } else { "drawn back over" };
             let told = match (found.is_significant(), found.is_identified()) {
                 (true, true) => "",
-                (true, false) => "; errors that all samples share would explain a part of it",
-                (false, _) => "; the scan is explained as well without",
+                (true, false) => "; systematic errors may explain a part of it",
+                (false, _) => "; not significant",
             };
             let others = pass.calibration.as_ref().map_or_else(Vec::new, |told| told.confounders(Source::Friction));
             let others = confounders_text(found.mu, found.sigma, &others);
@@ -106,7 +106,7 @@ impl Reconstructed {
         }
         let ties = calibration.ties.iter().map(|(a, b, _)| format!("{a} and {b}")).collect::<Vec<_>>();
         if calibration.is_applied() && !ties.is_empty() {
-            writeln!(text, "not told apart by this scan: {}", ties.join("; "))?;
+            writeln!(text, "not separated by this scan: {}", ties.join("; "))?;
         }
         Ok(())
     }
@@ -158,7 +158,7 @@ pub fn confounders_text(mu: f64, sigma: f64, others: &[(Source, f64)]) -> String
     if named.is_empty() || sigma < WELL_KNOWN * mu.abs() {
         String::new()
     } else {
-        format!("; hardly told from {}", named.join(", "))
+        format!("; poorly separated from {}", named.join(", "))
     }
 }
 
