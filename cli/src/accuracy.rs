@@ -11,8 +11,8 @@ use vibrissa::Settings;
 use vibrissa_cli::{BudgetStudy, RodCalibration};
 
 /// What may be done with a rod that `calibrate` does not take.
-const NOT_CALIBRATED: &str = "`calibrate` knows the errors of a uniform, straight rod on a rigid clamp alone: `vibrissa reconstruct --rod` takes any \
-     rod, as it is";
+const NOT_CALIBRATED: &str = "`calibrate` takes a uniform, straight rod on a rigid clamp only: `vibrissa reconstruct --rod` takes any rod, without \
+     corrections";
 
 pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
     let Calibrate { recordings, rod, setup, noise, free, friction, file: out, moved, written } = arguments;

@@ -93,7 +93,7 @@ Examples:
   vibrissa calibrate first.csv second.csv --rod rod.toml --file calibrated.toml
   vibrissa calibrate first.csv --rod rod.toml --free stiffness,angle --file calibrated.toml
 
-Next: `vibrissa reconstruct third.csv --rod calibrated.toml`; docs/laboratory.md says what a scan can tell.";
+Next: `vibrissa reconstruct third.csv --rod calibrated.toml`; docs/laboratory.md lists the errors that a scan determines.";
 
 pub const BUDGET: &str = "\
 Examples:

@@ -235,11 +235,11 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
 }
 
 /// What may be done with a rod that `live` does not take.
-const NOT_LIVE: &str = "`live` answers for a uniform, straight rod on a rigid clamp alone: record what the sensor sends, and give the recording to \
+const NOT_LIVE: &str = "`live` takes a uniform, straight rod on a rigid clamp only: record the samples, and give the recording to \
      `vibrissa reconstruct --rod`, which takes any rod on any clamp";
 
 /// What may be done with a clamp that `fake-sensor` does not take.
-const NOT_PLAYED: &str = "a sensor feels the moment about a point of the support, and the base moves against that: write the reactions at the base by \
+const NOT_PLAYED: &str = "a sensor measures the moment about a point of the support, but the base moves relative to it: write the reactions at the base with \
      `vibrissa simulate`, which takes any clamp, and give them to `vibrissa reconstruct`";
 
 fn live(arguments: Live) -> Result<ExitCode, Error> {
@@ -323,14 +323,14 @@ fn run_study(file: &Path, out: Option<PathBuf>, scene: Option<usize>, jobs: Opti
     drop(progress);
     let StudyRun { scenes, found, done, stopped, refused, first_refusal, complete } = run;
     say(&format!(
-        "{name}: {scenes} scenes: {done} done, {stopped} stopped early, {refused} refused; {found} rows were there before\nwritten to {}\n",
+        "{name}: {scenes} scenes: {done} done, {stopped} stopped early, {refused} refused; {found} rows from an earlier run\nwritten to {}\n",
         out.display()
     ));
     if let Some((number, reason)) = first_refusal {
-        warn(&format!("{name}: the first scene that was refused is {number}: {reason}\n"));
+        warn(&format!("{name}: the first refused scene is {number}: {reason}\n"));
     }
     if !complete {
-        warn(&format!("{name}: interrupted; the same command goes on\n"));
+        warn(&format!("{name}: interrupted; the same command continues\n"));
         return Ok(caught.status());
     }
     Ok(if done + stopped == 0 { ExitCode::from(UNFINISHED) } else { ExitCode::SUCCESS })
@@ -380,7 +380,7 @@ fn verdict<'a>(scans: impl IntoIterator<Item = &'a Scan>) -> ExitCode {
 }
 
 fn stopped(name: &str, stop: &Stop) -> ExitCode {
-    warn(&format!("warning: {name}: {stop}; everything before that is written\n"));
+    warn(&format!("warning: {name}: {stop}; the results up to there are written\n"));
     ExitCode::from(UNFINISHED)
 }
 
@@ -388,7 +388,7 @@ fn stopped(name: &str, stop: &Stop) -> ExitCode {
 fn interrupted(name: &str, at: &Interrupted, marked: Option<&str>, caught: &signals::Caught) -> ExitCode {
     let written = marked.map_or_else(
         || "nothing is written".to_owned(),
-        |place| format!("everything before that is written, and {place} says that it is incomplete"),
+        |place| format!("the results up to there are written, and {place} marks them as incomplete"),
     );
     warn(&format!("warning: {name}: {at}; {written}\n"));
     caught.status()

@@ -62,7 +62,7 @@ fn a_stiffness_told_wrong_is_found() {
     let output = calibrate(path, &["a.csv", "b.csv", "--rod", "rod.toml", "--file", "all.toml"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let report = said(&output);
-    assert!(report.contains("they agree") && report.contains("not told apart: "), "{report}");
+    assert!(report.contains("they agree") && report.contains("not separated: "), "{report}");
     let all = read(path, "all.toml");
     let found = all["rod"]["bending_stiffness"].as_float().unwrap();
     let sigma = number(&all, ["calibration", "stiffness", "sigma"]);
@@ -144,7 +144,7 @@ fn an_estimate_beyond_its_budget_is_told() {
     assert_eq!(output.status.code(), Some(2), "{}", complaint(&output));
     let complaint = complaint(&output);
     assert!(complaint.contains("warning: bending stiffness: the estimate +"), "{complaint}");
-    assert!(complaint.contains("standard deviations off what was known"), "{complaint}");
+    assert!(complaint.contains("standard deviations away from the known value"), "{complaint}");
     assert!(said(&output).contains("yes, budget raised") && path.join("c.toml").exists());
 }
 
@@ -170,7 +170,7 @@ fn bad_input_is_named() {
         (
             vec!["a.csv", "--rod", "rod.toml", "--setup", "none.toml", "--free", "stiffness", "--file", "c.toml"],
             1,
-            "nothing to calibrate: the budget of every source that is looked for is 0",
+            "nothing to calibrate: the budget of every requested source is 0",
         ),
     ] {
         let output = calibrate(path, &arguments);

@@ -294,7 +294,7 @@ fn a_budget_counts_what_is_known_of_friction() {
     let [budget, left, before, after] = ["budget", "left", "before", "after"].map(|of| friction[of].as_f64().unwrap());
     assert!(budget == 0.3 && left < 0.05 && after < 0.2 * before && after > 0.0, "{friction}");
     let [known, shared] = ["shared_with_known_friction", "shared_after"].map(|of| record[of].as_f64().unwrap());
-    assert!(known < shared && report.contains("if the coefficient of friction were known exactly"), "{known} {shared}");
+    assert!(known < shared && report.contains("with an exactly known coefficient of friction"), "{known} {shared}");
     for run in record["runs"].as_array().unwrap() {
         assert!(run["labels_right"].as_f64().unwrap() > 0.95 && run["median"].as_f64().unwrap() < 3e-3, "{run}");
     }

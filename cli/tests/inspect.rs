@@ -444,5 +444,5 @@ fn the_report_for_people_has_a_table_of_faults_and_the_command() {
     fs::write(directory.path().join("scan.csv"), own().replace("phi0", "remark7")).unwrap();
     let output = vibrissa(directory.path(), &["inspect", "scan.csv", "--rod", "rod.toml"]);
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(said.contains("to mend:\n  place       field  found"), "{said}");
+    assert!(said.contains("to correct:\n  place       field  found"), "{said}");
 }

@@ -247,7 +247,7 @@ fn gauges_cannot_be_played() {
         vibrissa(dir, &["fake-sensor", "scene.toml", "--protocol", "rdt", "--setup", "setup.toml", "--port", "0"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(
-        complaint(&output).contains("a calibration of gauges, from which a wrench can be told"),
+        complaint(&output).contains("a calibration from gauges to a wrench, which has no inverse"),
         "{}",
         complaint(&output)
     );

@@ -452,7 +452,7 @@ fn help_names_files_units_and_exit_statuses() {
         assert!(command.contains(part), "`{part}` is not in: {command}");
     }
     let all = help(&["--help"]);
-    assert!(all.contains("reconstruct Turn a recording of clamp reactions back into contact points"), "{all}");
+    assert!(all.contains("reconstruct Reconstruct contact points, phases and the contour"), "{all}");
     assert!(
         all.contains("2 a sweep that stopped early") && all.contains("a recording that does not fit its rod"),
         "{all}"

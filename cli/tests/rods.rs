@@ -449,7 +449,7 @@ fn options_that_do_not_apply_to_such_rods_are_refused() {
         String::from_utf8(output.stderr).unwrap()
     };
     let said = message(&["--rod", "scene.toml", "--setup", "errors.toml"]);
-    assert!(said.starts_with("error: --setup: errors.toml has the table [errors], but of a rod"), "{said}");
+    assert!(said.starts_with("error: --setup: errors.toml has the table [errors], but systematic errors"), "{said}");
     let said = message(&["--rod", "known.toml"]);
     assert!(said.starts_with("error: known.toml:6:1: calibration: given for a rod that is not uniform"), "{said}");
     let said = message(&["--rod", "scene.toml", "--setup", "sensor.toml"]);
@@ -507,7 +507,7 @@ fn other_commands_refuse_it() {
             (&["budget", &file], "`vibrissa simulate --noise` and `vibrissa reconstruct --truth` show"),
             (
                 &["fake-sensor", &file, "--protocol", "rdt", "--rate", "-1"],
-                "by `vibrissa simulate`, which takes any clamp",
+                "with `vibrissa simulate`, which takes any clamp",
             ),
         ] {
             let output = vibrissa(dir.path(), arguments);

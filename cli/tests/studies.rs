@@ -36,7 +36,7 @@ fn the_cycles_of_the_paper_and_what_was_touched() {
     let output = vibrissa(directory.path(), &["study", "study.toml"]);
     assert!(output.status.success(), "{output:?}");
     let told = "3 scenes: 3 done, 0 stopped early, 0 refused";
-    assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("{told}; 0 rows were there before")));
+    assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("{told}; 0 rows from an earlier run")));
     let again = vibrissa(directory.path(), &["study", "study.toml", "--jobs", "1"]);
     assert!(again.status.success() && String::from_utf8_lossy(&again.stdout).contains(&format!("{told}; 3 rows")));
     let rows = rows(&directory.path().join("out/study"));
