@@ -231,10 +231,7 @@ fn a_study_of_refused_scenes_ends_with_the_same_status_again() {
         assert_eq!(output.status.code(), Some(2));
         assert!(String::from_utf8_lossy(&output.stdout).contains("0 done, 0 stopped early, 2 refused"), "{output:?}");
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(
-            message.contains("the first scene that was refused is 0: ") && message.contains("step is -1"),
-            "{message}"
-        );
+        assert!(message.contains("the first refused scene is 0: ") && message.contains("step is -1"), "{message}");
     }
 }
 
