@@ -11,11 +11,11 @@ use vibrissa::Settings;
 use vibrissa_cli::{BudgetStudy, RodCalibration};
 
 /// What may be done with a rod that `calibrate` does not take.
-const NOT_CALIBRATED: &str = "`calibrate` knows the errors of a uniform, straight rod on a rigid clamp alone: `vibrissa reconstruct --rod` takes any \
-     rod, as it is";
+const NOT_CALIBRATED: &str = "`calibrate` takes a uniform, straight rod on a rigid clamp only: `vibrissa reconstruct --rod` takes any rod, without \
+     corrections";
 
 pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
-    let Calibrate { recordings, rod, setup, noise, free, friction, out, moved, written } = arguments;
+    let Calibrate { recordings, rod, setup, noise, free, friction, file: out, moved, written } = arguments;
     signals::end();
     if crate::is_standard(&out) {
         return Err(OutputError::NoFile { file: out }.into());
@@ -59,6 +59,7 @@ pub fn expect(arguments: Expect) -> Result<ExitCode, Error> {
     let noise = noise.map(|file| read_noise(&file)).transpose()?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
     let staged = Staged::new(&out)?.keeping(inputs);
+    let speed = speed.of(&scene)?;
     let expected = BudgetStudy { scene, budget, noise, friction, rate, speed, runs, seed }.run()?;
     expected.write(&staged)?;
     staged.publish()?;

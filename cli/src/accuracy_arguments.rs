@@ -3,6 +3,7 @@
 use crate::recording_arguments::{Moved, Written};
 use crate::values::{directory, friction, seed};
 use clap::Args;
+use rod_files::Speed;
 use std::path::PathBuf;
 use vibrissa::reconstruct::Friction;
 use vibrissa_cli::Freed;
@@ -10,7 +11,7 @@ use vibrissa_cli::Freed;
 /// Most recordings with random errors: hours of work.
 const MOST_RUNS: usize = 100_000;
 
-/// What recordings tell of rod, sensor, clamp and stage.
+/// Calibration of rod, sensor, clamp and stage from recordings.
 #[derive(Debug, Args)]
 pub struct Calibrate {
     /// The recordings, as for `reconstruct`: of one rod, clamped once, with one sensor
@@ -19,8 +20,8 @@ pub struct Calibrate {
     /// The rod, a TOML file with the table [rod] of a scene, perhaps with an earlier calibration; or a scene
     #[arg(long, value_name = "FILE")]
     pub rod: PathBuf,
-    /// How large the errors may be that all samples share, the table [errors] of a TOML file [default: an ordinary laboratory]; of raw
-    /// values and wrenches also calibration, mounting and tare, as for `live`
+    /// Size of the systematic errors, the table [errors] of a TOML file [default: an ordinary laboratory]; for raw values and wrenches
+    /// also calibration, mounting and tare, as for `live`
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,
     /// The noise of the sensor, a TOML file as for `simulate` [default: found in the recordings]
@@ -34,8 +35,8 @@ pub struct Calibrate {
     #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = friction, default_value = "none")]
     pub friction: Friction,
     /// The TOML file of the calibrated rod; calibration.svg is written beside it
-    #[arg(long, value_name = "FILE")]
-    pub out: PathBuf,
+    #[arg(long, alias = "out", value_name = "FILE")]
+    pub file: PathBuf,
     #[command(flatten)]
     pub moved: Moved,
     #[command(flatten)]
@@ -47,21 +48,21 @@ pub struct Calibrate {
 pub struct Expect {
     /// The scene, a TOML file; its step is not used
     pub scene: PathBuf,
-    /// How large the errors may be that all samples share, the table [errors] of a TOML file [default: an ordinary laboratory]
+    /// Size of the systematic errors, the table [errors] of a TOML file [default: an ordinary laboratory]
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,
     /// The noise of the sensor, a TOML file as for `simulate` [default: white, 0.008 E I / L^2 and 0.003 E I / L]
     #[arg(long, value_name = "FILE")]
     pub noise: Option<PathBuf>,
-    /// What a reconstruction is told of Coulomb friction, as for `reconstruct` [default: estimate, if the scene has friction]
+    /// Coulomb friction that the reconstruction assumes, as for `reconstruct` [default: estimate, if the scene has friction]
     #[arg(long, value_name = "MU", allow_hyphen_values = true, value_parser = friction)]
     pub friction: Option<Friction>,
     /// Samples in a second
     #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
     pub rate: f64,
-    /// Speed of the clamp: m/s, or rad/s where the clamp only turns
-    #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
-    pub speed: f64,
+    /// Speed of the clamp: a number in m/s, or in rad/s where the clamp only turns, or with a unit as "1 mm/s" or "10 deg/s"
+    #[arg(long, value_name = "SPEED", default_value = "1e-3", allow_negative_numbers = true)]
+    pub speed: Speed,
     /// Number of recordings with random errors
     #[arg(long, value_name = "N", default_value_t = 20, allow_negative_numbers = true, value_parser = runs)]
     pub runs: usize,

@@ -6,7 +6,7 @@ use crate::recording_arguments::{Moved, Written};
 use crate::values::{degrees, directory, friction, no_quiet, not_negative, number, positive, seed};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use rod_files::SensorAddress;
+use rod_files::{SensorAddress, Speed, Whisker};
 use std::path::PathBuf;
 use vibrissa::reconstruct::Friction;
 use vibrissa_cli::{FakeProtocol, FirstScene};
@@ -25,7 +25,7 @@ pub struct Arguments {
 }
 
 const RECONSTRUCT: &str = "\
-Turn a recording of clamp reactions back into contact points, phases and the contour.
+Reconstruct contact points, phases and the contour from a recording of clamp reactions.
 
 Writes points.jsonl (one object for each row of the recording, in order: clamp pose, contact point, label, and null with a
 reason where there is no answer), contour.csv (stretches of the contour; gaps stay gaps) and report.json (rows, noise,
@@ -37,29 +37,29 @@ Several recordings are of one object, with one rod in one frame. Each is reconst
 contour.csv, contour.svg and merged.json beside the folders are of all of them together.";
 
 const INSPECT: &str = "\
-Look at a recording, a stage or tracked points of any layout: what it holds, what must be mended, and the command that reads it.
+Look at a recording, a stage or tracked points of any layout: what it holds, what must be corrected, and the command that reads it.
 
 Prints format, rate, gaps and the motion of the clamp, and for each column the meaning, unit, range and noise, with the reason: sure, likely
-or open. With --rod the physics of the contacts tells units, axes and signs of the forces. All faults are in one table, with line, field, value and
+or open. With --rod the physics of the contacts gives units, axes and signs of the forces. All faults are in one table, with line, field, value and
 expectation. A guess that is open is a question, and the option that answers it. Then comes the command line that reads the files; it has
-been tried. Exit status 0: that command reads the files. Exit status 2: something must be mended or answered first.";
+been tried. Exit status 0: that command reads the files. Exit status 2: something must be corrected or answered first.";
 
 const CALIBRATE: &str = "\
 Find stiffness, gains, clamp angle and other errors of rod and sensor from recordings.
 
 The errors are those that all samples of a scan share and that stay the same from scan to scan. They are estimated from the
 conditions that the phases impose, and from the free rod; the object need not be known. Several recordings count together,
-and are compared with each other. Bias and drift are taken off each recording, too, but not written. Writes a TOML file with
-the rod and with value and standard deviation of each error, which `reconstruct --rod` takes off its recording, and
+and are compared with each other. Bias and drift are subtracted from each recording, too, but not written. Writes a TOML file with
+the rod and with value and standard deviation of each error, which `reconstruct --rod` subtracts from its recording, and
 calibration.svg, the conditions before and after. Exit status 2: the recordings contradict each other (then nothing
 is written) or their rod, or an estimate is beyond three times its budget.";
 
 const BUDGET: &str = "\
-Say what accuracy to expect of a scene, by source of error, before and after self-calibration.
+Forecast the accuracy of a reconstruction, by source of error, before and after self-calibration.
 
-Simulates the recording of the scene. By derivatives of the contact points with respect to each error that all samples share
-it tells the standard deviation across the contour, before any correction and after the scan has calibrated itself. Then it draws
-all errors from the budget, puts them on the recording and reconstructs it, --runs times. Writes budget.json and budget.svg.";
+Simulates the recording of the scene. From derivatives of the contact points with respect to each systematic error it computes
+the standard deviation across the contour, before any correction and after the scan has calibrated itself. Then it draws
+all errors from the budget, adds them to the recording and reconstructs it, --runs times. Writes budget.json and budget.svg.";
 
 const ELASTICA: &str = "\
 Find the equilibria of a rod without contacts: cantilevers, columns that buckle, rods between two clamps.
@@ -72,22 +72,22 @@ const STUDY: &str = "\
 Sweep a scene with some of its numbers changed, in all combinations, on all cores.
 
 Writes rows.csv: for each scene its parameters, phases, snaps, way with several contacts, error of single-contact points there, share of
-the contour that is touched, largest moment, or the reason why there is no sweep. A run that is broken off goes on when it is
+the contour that is touched, largest moment, or the reason why there is no sweep. An interrupted run continues when it is
 started again.";
 
 const LIVE: &str = "\
-Listen to a sensor and tell contact points and phases as they come.
+Read a sensor, and print contact points and phases during the scan.
 
-The scan begins where the rod is free: its first second is the tare and tells the noise. The stage sets off with the first
+The scan must begin with a free rod: its first second is the tare and gives the noise. The stage must start with the first
 sample. Writes recording.csv (clamp poses, reactions and raw values; `vibrissa reconstruct` reads it), points.jsonl (one object for each
-sample) and summary.json (losses, flags, latency), the first two as it goes. Ends when the clamp has arrived, the recording
+sample) and summary.json (losses, flags, latency), the first two during the scan. Ends when the clamp has arrived, the recording
 ends, the sensor is silent for 3 s, or with Ctrl-C.";
 
 const FORCES: &str = "\
 Find the forces on a rod from points on it, frame by frame.
 
 Each frame is explained by the elastica with the fewest contacts, none, one or two, each on the side or at the tip. Writes
-forces.jsonl and forces.csv (contacts, forces, reactions of the base, standard deviations, chi squared, and a verdict: what the frame tells),
+forces.jsonl and forces.csv (contacts, forces, reactions of the base, standard deviations, chi squared, and a verdict on the frame),
 rest.json (the curvature at rest, with --rest), frames.svg (shapes and forces) and forces.svg (force and moment over the frames).";
 
 /// What to do.
@@ -127,8 +127,8 @@ pub enum Command {
         scene: PathBuf,
         /// The CSV file, or - for standard output; the drawing has the same name with .svg, none for - [default: out/<name of the
         /// scene>/contour.csv]
-        #[arg(long, value_name = "FILE")]
-        out: Option<PathBuf>,
+        #[arg(long, alias = "out", value_name = "FILE")]
+        file: Option<PathBuf>,
         /// Largest distance of a chord between two points from the contour, m [default: 1e-6 of the rod's length]
         #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
         tolerance: Option<f64>,
@@ -142,10 +142,10 @@ pub enum Command {
     /// Write what a sensor at the clamp would record along a scene (CSV, SI units: t,x0,y0,phi0,f0x,f0y,m0z)
     #[command(after_help = guide::SIMULATE)]
     Simulate(Simulate),
-    /// Look at a recording, a stage or tracked points of any layout: what it holds, what must be mended, and the command that reads it
+    /// Look at a recording, a stage or tracked points of any layout: what it holds, what must be corrected, and the command that reads it
     #[command(long_about = INSPECT, after_help = guide::INSPECT)]
     Inspect(Inspect),
-    /// Turn a recording of clamp reactions back into contact points, phases and the contour
+    /// Reconstruct contact points, phases and the contour from a recording of clamp reactions
     #[command(long_about = RECONSTRUCT, after_help = guide::RECONSTRUCT)]
     Reconstruct(Reconstruct),
     /// Find the forces on a rod from points on it, frame by frame: tracked whiskers, images, or a part of the signal at the base
@@ -154,13 +154,13 @@ pub enum Command {
     /// Find stiffness, gains, clamp angle and other errors of rod and sensor from recordings
     #[command(long_about = CALIBRATE, after_help = guide::CALIBRATE)]
     Calibrate(Calibrate),
-    /// Say what accuracy to expect of a scene, by source of error, before and after self-calibration
+    /// Forecast the accuracy of a reconstruction, by source of error, before and after self-calibration
     #[command(long_about = BUDGET, after_help = guide::BUDGET)]
     Budget(Expect),
-    /// Listen to a sensor: contact points, phases and flags as they come
+    /// Read a sensor, and print contact points, phases and flags during the scan
     #[command(long_about = LIVE, after_help = guide::LIVE)]
     Live(Live),
-    /// Play what a sensor would send along a scene, for tests without one
+    /// Send what a sensor would send along a scene, for tests without a sensor
     #[command(after_help = guide::FAKE_SENSOR)]
     FakeSensor(FakeSensor),
     /// Sweep a scene with some of its numbers changed, in all combinations, on all cores: one row of results for each
@@ -212,15 +212,19 @@ pub struct First {
     /// A rod past an object with straight edges
     #[arg(long)]
     polygon: bool,
+    /// An average whisker of a rat, by row and column as C2, or of a mouse as mouse:C2, that turns past a peg and back
+    #[arg(long, value_name = "WHISKER")]
+    whisker: Option<Whisker>,
 }
 
 impl First {
     /// The scene that is asked for.
-    pub fn scene(&self) -> FirstScene {
-        match (self.whisking, self.recording, self.polygon) {
-            (true, ..) => FirstScene::Whisking,
-            (_, true, _) => FirstScene::Recording,
-            (.., true) => FirstScene::Polygon,
+    pub fn scene(self) -> FirstScene {
+        match self {
+            Self { whisker: Some(whisker), .. } => FirstScene::Whisker(whisker),
+            Self { whisking: true, .. } => FirstScene::Whisking,
+            Self { recording: true, .. } => FirstScene::Recording,
+            Self { polygon: true, .. } => FirstScene::Polygon,
             _ => FirstScene::Ellipse,
         }
     }
@@ -229,7 +233,7 @@ impl First {
 /// A scan with a sensor.
 #[derive(Debug, Args)]
 pub struct Live {
-    /// Where it is: rdt://HOST[:PORT][?scaling=PORT], serial:PATH:PROFILE[:BAUD] (gsv8, gsv6, bota, optoforce, robotiq)
+    /// Address of the sensor: rdt://HOST[:PORT][?scaling=PORT], serial:PATH:PROFILE[:BAUD] (gsv8, gsv6, bota, optoforce, robotiq)
     /// or file:RECORDING (CSV, TSV, LVM, TDMS, MCAP)
     #[arg(long, value_name = "ADDRESS")]
     pub sensor: SensorAddress,
@@ -239,10 +243,10 @@ pub struct Live {
     #[command(flatten)]
     pub moved: Moved,
     /// How the sensor is set up, a TOML file: units and counts, calibration, mounting, accuracy, tare,
-    /// what of a recording is meant, and how large the errors may be that all samples share [errors]
+    /// columns of a recording, and the size of the systematic errors [errors]
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,
-    /// Take samples and rod as they are: no errors that all samples share are estimated, whatever --setup says of them
+    /// Take samples and rod for exact: no systematic errors are estimated, whatever --setup has
     #[arg(long)]
     pub as_is: bool,
     /// Directory of the results
@@ -259,7 +263,7 @@ pub struct Inspect {
     /// together by their times
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// The rod, a TOML file with the table [rod] of a scene, or a scene: its stiffness and length tell units
+    /// The rod, a TOML file with the table [rod] of a scene, or a scene: its stiffness and length give the units
     #[arg(long, value_name = "FILE")]
     pub rod: Option<PathBuf>,
     /// The setup of the sensor, a TOML file as for `live`, if there is one
@@ -275,7 +279,7 @@ pub struct Inspect {
     pub written: Written,
 }
 
-/// Recordings to be turned back.
+/// Recordings to be reconstructed.
 #[derive(Debug, Args)]
 pub struct Reconstruct {
     /// The recordings: CSV, TSV or LVM with the columns x0,y0 (m), phi0 (rad), f0x,f0y (N), m0z (N m), perhaps t (s) and the
@@ -283,7 +287,7 @@ pub struct Reconstruct {
     /// values, in these files, TDMS and MCAP. Several are of one object and one rod
     #[arg(required = true, value_name = "RECORDING")]
     pub recordings: Vec<PathBuf>,
-    /// The rod, a TOML file with the table [rod] of a scene, perhaps with what `calibrate` found; or a scene
+    /// The rod, a TOML file with the table [rod] of a scene, perhaps with a calibration; or a scene
     #[arg(long, value_name = "FILE")]
     pub rod: PathBuf,
     /// The scene that the recordings are of, to compare with
@@ -297,7 +301,7 @@ pub struct Reconstruct {
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = degrees)]
     pub align: Option<f64>,
     /// Answer samples from their neighbours alone, in a fraction of a second. No contour is fitted to the whole recording, which takes seconds, or a
-    /// minute where none explains it: what contradicts the rest of the recording is not seen
+    /// minute where none explains it; contradictions within the recording are not found
     #[arg(long)]
     pub local: bool,
     #[command(flatten)]
@@ -394,7 +398,7 @@ pub enum Visible {
     Tip,
     /// Both
     Both,
-    /// Neither: place along the rod is told only where stiffness or curvature at rest vary
+    /// Neither: the place along the rod is determined only where stiffness or curvature at rest vary
     Neither,
 }
 
@@ -402,11 +406,11 @@ pub enum Visible {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "How far recording and rod can be trusted")]
 pub struct Trust {
-    /// Take samples, rod and poses as they are: nothing is corrected, and standard deviations are of the noise only
+    /// Take samples, rod and poses for exact: nothing is corrected, and standard deviations are of the noise only
     #[arg(long)]
     pub as_is: bool,
-    /// A TOML file: how large the errors may be that all samples share, the table [errors] [default: an ordinary laboratory]; of raw
-    /// values and wrenches also calibration, mounting, tare and what of a recording is meant, as for `live`
+    /// A TOML file: the size of the systematic errors, the table [errors] [default: an ordinary laboratory]; for raw values and
+    /// wrenches also calibration, mounting, tare and columns of the recording, as for `live`
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,
     /// The noise of the sensor, a TOML file as for `simulate` [default: found in the recording]
@@ -424,7 +428,7 @@ pub struct Trust {
     pub largest_sigma: Option<f64>,
 }
 
-/// A recording to be made.
+/// A recording to be simulated.
 #[derive(Debug, Args)]
 pub struct Simulate {
     /// The scene, a TOML file; its step is not used
@@ -435,9 +439,9 @@ pub struct Simulate {
     /// Samples in a second; there is one every speed / rate of the clamp's way, and each of several legs has a whole number of them
     #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
     pub rate: f64,
-    /// Speed of the clamp: m/s, or rad/s where the clamp only turns, on all legs
-    #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
-    pub speed: f64,
+    /// Speed of the clamp on all legs: a number in m/s, or in rad/s where the clamp only turns, or with a unit as "1 mm/s" or "10 deg/s"
+    #[arg(long, value_name = "SPEED", default_value = "1e-3", allow_negative_numbers = true)]
+    pub speed: Speed,
     /// Seed of the noise: the same one gives the same recording
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = seed)]
     pub seed: u64,
@@ -445,8 +449,8 @@ pub struct Simulate {
     #[arg(long)]
     pub sigmas: bool,
     /// The CSV file, or - for standard output [default: out/<name of the scene>/recording.csv]
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
+    #[arg(long, alias = "out", value_name = "FILE")]
+    pub file: Option<PathBuf>,
 }
 
 /// A sensor to be played.
@@ -454,15 +458,15 @@ pub struct Simulate {
 pub struct FakeSensor {
     /// The scene, a TOML file; its step is not used
     pub scene: PathBuf,
-    /// What the sensor speaks
+    /// Protocol of the sensor
     #[arg(long, value_enum)]
     pub protocol: FakeProtocol,
     /// Samples in a second
     #[arg(long, value_name = "HZ", default_value_t = 500.0, allow_negative_numbers = true)]
     pub rate: f64,
-    /// Speed of the clamp: m/s, or rad/s where the clamp only turns
-    #[arg(long, value_name = "SPEED", default_value_t = 1e-3, allow_negative_numbers = true)]
-    pub speed: f64,
+    /// Speed of the clamp: a number in m/s, or in rad/s where the clamp only turns, or with a unit as "1 mm/s" or "10 deg/s"
+    #[arg(long, value_name = "SPEED", default_value = "1e-3", allow_negative_numbers = true)]
+    pub speed: Speed,
     /// How many times faster than real time to play
     #[arg(long, value_name = "TIMES", default_value_t = 1.0, allow_negative_numbers = true)]
     pub faster: f64,

@@ -111,7 +111,10 @@ impl Error {
             }
             Self::Study(StudyError::NoScene { .. })
             | Self::FakeSensor(FakeError::Pace { .. } | FakeError::NoPty { .. }) => true,
-            _ => matches!(self.of_output(), Some(OutputError::Name { .. } | OutputError::NoFile { .. })),
+            _ => matches!(
+                self.of_output(),
+                Some(OutputError::Name { .. } | OutputError::NoFile { .. } | OutputError::IsDirectory { .. })
+            ),
         }
     }
 }

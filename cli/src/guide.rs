@@ -17,6 +17,7 @@ pub const INIT: &str = "\
 Examples:
   vibrissa init bump.toml
   vibrissa init --whisking whisking.toml
+  vibrissa init --whisker C2 whisker.toml
 
 Next: `vibrissa sweep bump.toml`. A file that exists is never overwritten.";
 
@@ -46,7 +47,7 @@ Next: open elastica.svg of the results in a browser; docs/elastica.md has loads 
 pub const CONTOUR: &str = "\
 Examples:
   vibrissa contour scene.toml
-  vibrissa contour scene.toml --object 1 --out - > object.csv
+  vibrissa contour scene.toml --object 1 --file - > object.csv
 
 Next: open contour.svg, see whether the outline is what you mean, then `vibrissa sweep` the scene.";
 
@@ -58,8 +59,8 @@ Next: put a shape into an [[object.piece]] of a scene, and look at it with `vibr
 
 pub const SIMULATE: &str = "\
 Examples:
-  vibrissa simulate scene.toml --out recording.csv
-  vibrissa simulate scene.toml --noise noise.toml --seed 1 --out - > recording.csv
+  vibrissa simulate scene.toml --file recording.csv
+  vibrissa simulate scene.toml --noise noise.toml --seed 1 --file - > recording.csv
 
 Next: `vibrissa reconstruct recording.csv --rod scene.toml --truth scene.toml`.";
 
@@ -89,10 +90,10 @@ Next: open frames.svg and forces.svg of the results in a browser; docs/forces-fr
 
 pub const CALIBRATE: &str = "\
 Examples:
-  vibrissa calibrate first.csv second.csv --rod rod.toml --out calibrated.toml
-  vibrissa calibrate first.csv --rod rod.toml --free stiffness,angle --out calibrated.toml
+  vibrissa calibrate first.csv second.csv --rod rod.toml --file calibrated.toml
+  vibrissa calibrate first.csv --rod rod.toml --free stiffness,angle --file calibrated.toml
 
-Next: `vibrissa reconstruct third.csv --rod calibrated.toml`; docs/laboratory.md says what a scan can tell.";
+Next: `vibrissa reconstruct third.csv --rod calibrated.toml`; docs/laboratory.md lists the errors that a scan determines.";
 
 pub const BUDGET: &str = "\
 Examples:

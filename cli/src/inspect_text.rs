@@ -13,7 +13,7 @@ pub fn inspection_text(found: &Inspection) -> String {
     let faults: Vec<_> =
         found.files.iter().flat_map(|file| file.faults.iter().map(move |fault| (file, fault))).collect();
     if !faults.is_empty() {
-        text += "to mend:\n";
+        text += "to correct:\n";
         let mut table = Table::new(["place", "field", "found", "expected", "effect"]);
         for (file, fault) in faults {
             let place = fault.line.map_or_else(|| file.file.clone(), |line| format!("{}:{line}", file.file));
@@ -23,7 +23,7 @@ pub fn inspection_text(found: &Inspection) -> String {
         let _ = writeln!(text, "{table}");
     }
     for file in found.files.iter().filter(|file| !file.questions.is_empty()) {
-        let _ = writeln!(text, "to answer, of {}:", file.file);
+        let _ = writeln!(text, "to answer, about {}:", file.file);
         for question in &file.questions {
             let _ = writeln!(text, "  {}", question.text);
             question.answers.iter().for_each(|answer| {
@@ -38,7 +38,7 @@ pub fn inspection_text(found: &Inspection) -> String {
         let what = match (command.reads && is_settled, command.setup.is_some()) {
             (true, false) => "this command reads it:",
             (true, true) => "this command reads it, with the setup below:",
-            (false, _) => "this command will read it when the rest is mended and answered:",
+            (false, _) => "this command reads it after these corrections and answers:",
         };
         let _ = writeln!(text, "{what}\n  {}", line.join(" "));
         if let Some(setup) = &command.setup {

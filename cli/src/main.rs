@@ -50,13 +50,13 @@ fn main() -> ExitCode {
     let Arguments { quiet, command } = Arguments::parse();
     QUIET.store(quiet, Ordering::Relaxed);
     let result = match command {
-        Command::Init { file, first } => init(first.scene(), &file),
+        Command::Init { file, first } => init(&first.scene(), &file),
         Command::Shapes => print(shapes_list().as_bytes()),
         Command::Completions { shell } => completions(shell),
         Command::Man { command } => man(command.as_deref()),
         Command::Sweep { scene, out } => sweep(&scene, out),
         Command::Elastica { file, out } => elastica(&file, out),
-        Command::Contour { scene, out, tolerance, object } => contour(&scene, out, tolerance, object),
+        Command::Contour { scene, file, tolerance, object } => contour(&scene, file, tolerance, object),
         Command::Simulate(arguments) => simulate(arguments),
         Command::Inspect(arguments) => inspection::inspect(arguments),
         Command::Reconstruct(arguments) => reconstruction::reconstruct(arguments),
@@ -88,7 +88,7 @@ fn is_broken_pipe(error: &io::Error) -> bool {
     }
 }
 
-fn init(first: FirstScene, file: &Path) -> Result<ExitCode, Error> {
+fn init(first: &FirstScene, file: &Path) -> Result<ExitCode, Error> {
     first.write(file)?;
     let file = file.display();
     say(&format!("written to {file}; next: vibrissa sweep {file}\n"));
@@ -174,15 +174,15 @@ fn elastica(file: &Path, out: Option<PathBuf>) -> Result<ExitCode, Error> {
 }
 
 fn contour(
-    file: &Path,
-    out: Option<PathBuf>,
+    scene: &Path,
+    file: Option<PathBuf>,
     tolerance: Option<f64>,
     object: Option<usize>,
 ) -> Result<ExitCode, Error> {
     signals::end();
-    let scene = read_scene(file)?;
+    let scene = read_scene(scene)?;
     let profiles = scene.profiles(tolerance, object)?;
-    let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("contour.csv"));
+    let out = file.unwrap_or_else(|| Path::new("out").join(&scene.name).join("contour.csv"));
     let tell: fn(&str) = if is_standard(&out) { tell_beside } else { say };
     let written = if is_standard(&out) {
         write_profile_table(&profiles, &mut io::stdout().lock()).map_err(OutputError::Standard)?;
@@ -201,15 +201,16 @@ fn contour(
 }
 
 fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
-    let Simulate { scene, noise, rate, speed, seed, sigmas, out } = arguments;
+    let Simulate { scene, noise, rate, speed, seed, sigmas, file } = arguments;
     let scene = read_scene(&scene)?;
     scene.check_start()?;
-    let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
+    let out = file.unwrap_or_else(|| Path::new("out").join(&scene.name).join("recording.csv"));
     let standard = is_standard(&out);
     if !standard {
         check_output(&out, &noise.iter().cloned().collect::<Vec<_>>())?;
     }
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
+    let speed = speed.of(&scene)?;
     let simulation = Simulation { scene, noise, rate, speed, seed, sigmas };
     let caught = signals::ask();
     let tell: fn(&str) = if standard { tell_beside } else { say };
@@ -234,11 +235,11 @@ fn simulate(arguments: Simulate) -> Result<ExitCode, Error> {
 }
 
 /// What may be done with a rod that `live` does not take.
-const NOT_LIVE: &str = "`live` answers for a uniform, straight rod on a rigid clamp alone: record what the sensor sends, and give the recording to \
+const NOT_LIVE: &str = "`live` takes a uniform, straight rod on a rigid clamp only: record the samples, and give the recording to \
      `vibrissa reconstruct --rod`, which takes any rod on any clamp";
 
 /// What may be done with a clamp that `fake-sensor` does not take.
-const NOT_PLAYED: &str = "a sensor feels the moment about a point of the support, and the base moves against that: write the reactions at the base by \
+const NOT_PLAYED: &str = "a sensor measures the moment about a point of the support, but the base moves relative to it: write the reactions at the base with \
      `vibrissa simulate`, which takes any clamp, and give them to `vibrissa reconstruct`";
 
 fn live(arguments: Live) -> Result<ExitCode, Error> {
@@ -294,7 +295,7 @@ fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {
     scene.check_start()?;
     let noise = noise.map_or_else(|| Ok(NoiseModel::default()), |file| read_noise(&file))?;
     let setup = setup.map_or_else(|| Ok(Setup::default()), |file| read_setup(&file))?;
-    let name = scene.name.clone();
+    let (name, speed) = (scene.name.clone(), speed.of(&scene)?);
     let interrupt = signals::ask().interrupt;
     let tell: &mut dyn FnMut(&str) = &mut |line| say(&format!("{line}\n"));
     let is_over = || interrupt.is_raised();
@@ -322,14 +323,14 @@ fn run_study(file: &Path, out: Option<PathBuf>, scene: Option<usize>, jobs: Opti
     drop(progress);
     let StudyRun { scenes, found, done, stopped, refused, first_refusal, complete } = run;
     say(&format!(
-        "{name}: {scenes} scenes: {done} done, {stopped} stopped early, {refused} refused; {found} rows were there before\nwritten to {}\n",
+        "{name}: {scenes} scenes: {done} done, {stopped} stopped early, {refused} refused; {found} rows from an earlier run\nwritten to {}\n",
         out.display()
     ));
     if let Some((number, reason)) = first_refusal {
-        warn(&format!("{name}: the first scene that was refused is {number}: {reason}\n"));
+        warn(&format!("{name}: the first refused scene is {number}: {reason}\n"));
     }
     if !complete {
-        warn(&format!("{name}: interrupted; the same command goes on\n"));
+        warn(&format!("{name}: interrupted; the same command continues\n"));
         return Ok(caught.status());
     }
     Ok(if done + stopped == 0 { ExitCode::from(UNFINISHED) } else { ExitCode::SUCCESS })
@@ -379,7 +380,7 @@ fn verdict<'a>(scans: impl IntoIterator<Item = &'a Scan>) -> ExitCode {
 }
 
 fn stopped(name: &str, stop: &Stop) -> ExitCode {
-    warn(&format!("warning: {name}: {stop}; everything before that is written\n"));
+    warn(&format!("warning: {name}: {stop}; the results up to there are written\n"));
     ExitCode::from(UNFINISHED)
 }
 
@@ -387,7 +388,7 @@ fn stopped(name: &str, stop: &Stop) -> ExitCode {
 fn interrupted(name: &str, at: &Interrupted, marked: Option<&str>, caught: &signals::Caught) -> ExitCode {
     let written = marked.map_or_else(
         || "nothing is written".to_owned(),
-        |place| format!("everything before that is written, and {place} says that it is incomplete"),
+        |place| format!("the results up to there are written, and {place} marks them as incomplete"),
     );
     warn(&format!("warning: {name}: {at}; {written}\n"));
     caught.status()

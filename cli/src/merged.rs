@@ -99,7 +99,7 @@ impl Merged {
         if let Some(Combined { chi_squared, freedom, .. }) = self.combined.as_ref().filter(|all| all.contradicts()) {
             found.push(format!(
                 "the scans contradict each other: errors of rod, sensor, clamp or stage that should stay the same differ (chi-squared \
-                 {chi_squared:.1} with {freedom} degrees of freedom); reconstruct them one by one to see which one is unlike the others"
+                 {chi_squared:.1} with {freedom} degrees of freedom); reconstruct them one by one to find the one that differs"
             ));
         }
         let apart: f64 = self.disagreements.iter().map(|here| here.to - here.from).sum();

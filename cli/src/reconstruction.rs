@@ -85,8 +85,8 @@ fn refuse_errors(setup: &Setup) -> Result<(), Error> {
     }
     let file = setup.files.first().map(|file| file.display().to_string()).unwrap_or_default();
     let why = format!(
-        "{file} has the table [errors], but of a rod that is not uniform or not straight at rest errors that all samples share are not \
-         estimated; expected a setup without [errors]"
+        "{file} has the table [errors], but systematic errors are estimated for a rod that is uniform and straight at rest only; \
+         expected a setup without [errors]"
     );
     Err(OptionError { option: "--setup", why }.into())
 }
@@ -110,7 +110,7 @@ fn one(
         found.fit(settings);
     }
     if !found.fits() {
-        stage(&format!("{name}: looking for what explains it"));
+        stage(&format!("{name}: looking for the cause of the misfit"));
         found.explain(settings);
     }
     if let Some(scene) = truth {

@@ -18,23 +18,23 @@ pub struct Moved {
     pub path: Option<PathBuf>,
 }
 
-/// How a recording, or the table of a stage, is written, where the file alone does not tell.
+/// Format of a recording, or of the table of a stage, where the file does not state it.
 #[derive(Debug, Args)]
-#[command(next_help_heading = "How the recording is written, where the file does not tell")]
+#[command(next_help_heading = "Format of the recording, where the file does not state it")]
 pub struct Written {
-    /// What separates its cells
+    /// Separator of the cells
     #[arg(long, value_parser = PossibleValuesParser::new(["comma", "semicolon", "tab", "blanks"]))]
     delimiter: Option<String>,
-    /// The mark before fractions
+    /// Decimal mark
     #[arg(long, value_parser = PossibleValuesParser::new(["point", "comma"]))]
     decimal: Option<String>,
     /// The line that names its columns, from 1; or none: the columns are called 1, 2, ...
     #[arg(long, value_name = "LINE", allow_negative_numbers = true, value_parser = header)]
     header: Option<Header>,
-    /// The unit of a column; with a minus before it, as `f0x=-N`, the sign of the column is turned. Of the table of a stage alone: stage:COLUMN=UNIT
+    /// The unit of a column; with a minus before it, as `f0x=-N`, the sign of the column is reversed. For the table of a stage: stage:COLUMN=UNIT
     #[arg(long, value_name = "COLUMN=UNIT", value_parser = pair)]
     unit: Vec<(String, String)>,
-    /// Which column is x0, y0, phi0, f0x, f0y, m0z, t, ... Of the table of a stage alone: stage:MEANING=COLUMN
+    /// Which column is x0, y0, phi0, f0x, f0y, m0z, t, ... For the table of a stage: stage:MEANING=COLUMN
     #[arg(long, value_name = "MEANING=COLUMN", value_parser = meaning)]
     column: Vec<Meaning>,
     /// Which of the segments of an LVM file, from 1

@@ -73,7 +73,7 @@ fn radians_in_a_setup() {
 fn the_command_warns_and_goes_on() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("scene.toml"), edited("90.0", "1.5708")).unwrap();
-    let output = vibrissa(directory.path(), &["contour", "scene.toml", "--out", "contour.csv"]);
+    let output = vibrissa(directory.path(), &["contour", "scene.toml", "--file", "contour.csv"]);
     assert_eq!(output.status.code(), Some(0));
     let message = complaint(&output);
     assert!(

@@ -31,9 +31,7 @@ fn sources_runs_and_files() {
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let report = String::from_utf8(output.stdout).unwrap();
     println!("{report}");
-    for part in
-        ["bias of f0x", "clamp angle", "all that samples share", "for 0.1 mm", "6 recordings with random errors"]
-    {
+    for part in ["bias of f0x", "clamp angle", "all systematic errors", "0.1 mm ", "6 recordings with random errors"] {
         assert!(report.contains(part), "{part}: {report}");
     }
     let record = record(directory.path());

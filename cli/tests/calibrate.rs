@@ -59,10 +59,10 @@ fn number(table: &toml::Table, path: [&str; 3]) -> f64 {
 fn a_stiffness_told_wrong_is_found() {
     let directory = recorded();
     let path = directory.path();
-    let output = calibrate(path, &["a.csv", "b.csv", "--rod", "rod.toml", "--out", "all.toml"]);
+    let output = calibrate(path, &["a.csv", "b.csv", "--rod", "rod.toml", "--file", "all.toml"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let report = said(&output);
-    assert!(report.contains("they agree") && report.contains("not told apart: "), "{report}");
+    assert!(report.contains("they agree") && report.contains("not separated: "), "{report}");
     let all = read(path, "all.toml");
     let found = all["rod"]["bending_stiffness"].as_float().unwrap();
     let sigma = number(&all, ["calibration", "stiffness", "sigma"]);
@@ -70,7 +70,7 @@ fn a_stiffness_told_wrong_is_found() {
     assert!((found / STIFFNESS - 1.0).abs() < 3.0 * sigma && sigma < 0.02, "{found} {sigma}");
     assert!(fs::read_to_string(path.join("calibration.svg")).unwrap().contains("normal speed"));
 
-    let only = calibrate(path, &["a.csv", "b.csv", "--rod", "rod.toml", "--free", "stiffness", "--out", "only.toml"]);
+    let only = calibrate(path, &["a.csv", "b.csv", "--rod", "rod.toml", "--free", "stiffness", "--file", "only.toml"]);
     assert_eq!(only.status.code(), Some(0), "{}", complaint(&only));
     let only = read(path, "only.toml");
     let found = only["rod"]["bending_stiffness"].as_float().unwrap();
@@ -106,14 +106,14 @@ fn an_angle_told_wrong_is_found() {
         text += &(row.iter().map(f64::to_string).collect::<Vec<_>>().join(",") + "\n");
     }
     file(path, "turned.csv", &text);
-    let output = calibrate(path, &["turned.csv", "--rod", "rod.toml", "--free", "angle,lever", "--out", "found.toml"]);
+    let output = calibrate(path, &["turned.csv", "--rod", "rod.toml", "--free", "angle,lever", "--file", "found.toml"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let found = read(path, "found.toml");
     let [angle, sigma] = ["value", "sigma"].map(|of| number(&found, ["calibration", "clamp_angle", of]));
     println!("{:.4} degrees, sigma {:.1e}", angle.to_degrees(), sigma.to_degrees());
     assert!((angle.to_degrees() - 0.4).abs() < 0.02, "{angle}");
     // a second calibration begins with what is known, and keeps it
-    let output = calibrate(path, &["turned.csv", "--rod", "found.toml", "--free", "stiffness", "--out", "again.toml"]);
+    let output = calibrate(path, &["turned.csv", "--rod", "found.toml", "--free", "stiffness", "--file", "again.toml"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let again = read(path, "again.toml");
     for (of, before) in [("value", angle), ("sigma", sigma)] {
@@ -128,7 +128,7 @@ fn recordings_of_two_rods_contradict_each_other() {
     file(path, "stiff.toml", &SCENES[0].1.replace("206e9", "214e9"));
     record(path, "stiff.toml", "stiff.csv", "4");
     let output =
-        calibrate(path, &["b.csv", "stiff.csv", "--rod", "rod.toml", "--free", "stiffness", "--out", "c.toml"]);
+        calibrate(path, &["b.csv", "stiff.csv", "--rod", "rod.toml", "--free", "stiffness", "--file", "c.toml"]);
     assert_eq!(output.status.code(), Some(2), "{}", complaint(&output));
     assert!(complaint(&output).contains("the recordings contradict each other: chi-squared"), "{}", complaint(&output));
     assert!(said(&output).ends_with("nothing is written\n"), "{}", said(&output));
@@ -140,11 +140,11 @@ fn an_estimate_beyond_its_budget_is_told() {
     let directory = recorded();
     let path = directory.path();
     file(path, "rod.toml", &rod(STIFFNESS / 1.25));
-    let output = calibrate(path, &["a.csv", "--rod", "rod.toml", "--out", "c.toml"]);
+    let output = calibrate(path, &["a.csv", "--rod", "rod.toml", "--file", "c.toml"]);
     assert_eq!(output.status.code(), Some(2), "{}", complaint(&output));
     let complaint = complaint(&output);
     assert!(complaint.contains("warning: bending stiffness: the estimate +"), "{complaint}");
-    assert!(complaint.contains("standard deviations off what was known"), "{complaint}");
+    assert!(complaint.contains("standard deviations away from the known value"), "{complaint}");
     assert!(said(&output).contains("yes, budget raised") && path.join("c.toml").exists());
 }
 
@@ -159,18 +159,18 @@ fn bad_input_is_named() {
         &(rod(STIFFNESS) + "[calibration]\nlag = { value = 1e-3, sigma = 1e-4, unit = \"mm\" }\n"),
     );
     for (arguments, status, message) in [
-        (vec!["--rod", "rod.toml", "--out", "c.toml"], 2, "<RECORDING>"),
-        (vec!["a.csv", "--rod", "rod.toml"], 2, "--out <FILE>"),
-        (vec!["a.csv", "--rod", "rod.toml", "--out", "-"], 2, "- is no name for a file"),
-        (vec!["a.csv", "--rod", "rod.toml", "--free", "stiffnes", "--out", "c.toml"], 2, "'stiffnes'"),
-        (vec!["c.csv", "--rod", "rod.toml", "--out", "c.toml"], 1, "cannot read the recording c.csv"),
-        (vec!["a.csv", "--rod", "rod.toml", "--out", "rod.toml"], 1, "rod.toml is read by this command"),
-        (vec!["a.csv", "--rod", "rod.toml", "--out", "a.csv"], 1, "a.csv is read by this command"),
-        (vec!["a.csv", "--rod", "known.toml", "--out", "c.toml"], 1, "the unit is mm, expected m"),
+        (vec!["--rod", "rod.toml", "--file", "c.toml"], 2, "<RECORDING>"),
+        (vec!["a.csv", "--rod", "rod.toml"], 2, "--file <FILE>"),
+        (vec!["a.csv", "--rod", "rod.toml", "--file", "-"], 2, "- is no name for a file"),
+        (vec!["a.csv", "--rod", "rod.toml", "--free", "stiffnes", "--file", "c.toml"], 2, "'stiffnes'"),
+        (vec!["c.csv", "--rod", "rod.toml", "--file", "c.toml"], 1, "cannot read the recording c.csv"),
+        (vec!["a.csv", "--rod", "rod.toml", "--file", "rod.toml"], 1, "rod.toml is read by this command"),
+        (vec!["a.csv", "--rod", "rod.toml", "--file", "a.csv"], 1, "a.csv is read by this command"),
+        (vec!["a.csv", "--rod", "known.toml", "--file", "c.toml"], 1, "the unit is mm, expected m"),
         (
-            vec!["a.csv", "--rod", "rod.toml", "--setup", "none.toml", "--free", "stiffness", "--out", "c.toml"],
+            vec!["a.csv", "--rod", "rod.toml", "--setup", "none.toml", "--free", "stiffness", "--file", "c.toml"],
             1,
-            "nothing to calibrate: the budget of every source that is looked for is 0",
+            "nothing to calibrate: the budget of every requested source is 0",
         ),
     ] {
         let output = calibrate(path, &arguments);

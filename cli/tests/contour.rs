@@ -37,7 +37,7 @@ fn rows(file: &Path) -> Vec<Row> {
 fn contour(scene: &str, arguments: &[&str]) -> Vec<Row> {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("scene.toml"), scene).unwrap();
-    let output = vibrissa(directory.path(), &[&["contour", "scene.toml", "--out", "here.csv"], arguments].concat());
+    let output = vibrissa(directory.path(), &[&["contour", "scene.toml", "--file", "here.csv"], arguments].concat());
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let drawing = fs::read_to_string(directory.path().join("here.svg")).unwrap();
     assert!(drawing.contains("x in mm") && drawing.trim_end().ends_with("</svg>"));

@@ -88,6 +88,33 @@ fn each_first_scene_is_swept_as_it_is() {
     assert!(output.status.code() == Some(2) && complaint(&output).contains("cannot be used with"));
 }
 
+/// The scene of each average whisker is swept to its end: the longest and the shortest of each animal, and one with a source in its comments.
+#[test]
+fn the_scene_of_a_whisker_meets_its_peg() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| vibrissa(directory.path(), arguments);
+    for name in ["C0", "c5", "rat:C2", "mouse:B0", "mouse:A3"] {
+        let file = format!("{}.toml", name.replace(':', "_"));
+        let output = run(&["init", "--whisker", name, &file]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", complaint(&output));
+        let output = run(&["sweep", &file]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", complaint(&output));
+        let report = String::from_utf8(output.stdout).unwrap();
+        assert!(report.contains(": free B free B") && output.stderr.is_empty(), "{report}");
+    }
+    let text = fs::read_to_string(directory.path().join("rat_C2.toml")).unwrap();
+    for part in
+        ["\nlength = \"32.6 mm\"\n", "\ndiameter = \"131.4 um\"", "Belli et al. (2017)", "1.48 GPa, Quist et al."]
+    {
+        assert!(text.contains(part), "{part} is not in {text}");
+    }
+    let output = run(&["init", "--whisker", "mouse:A0"]);
+    assert!(
+        output.status.code() == Some(2)
+            && complaint(&output).contains("expected 1 to 3: the whiskers in row A of a mouse")
+    );
+}
+
 /// The commands in the comments of the scene, run as they are.
 #[test]
 fn the_commands_of_the_recording_scene_work() {
@@ -105,7 +132,7 @@ fn the_commands_of_the_recording_scene_work() {
     assert!(directory.path().join("reconstruction/contour.svg").exists());
     let noise = text.lines().find_map(|line| line.strip_prefix("#   white")).unwrap();
     fs::write(directory.path().join("noise.toml"), format!("white{noise}\n")).unwrap();
-    let noisy = ["simulate", "scene.toml", "--noise", "noise.toml", "--seed", "1", "--sigmas", "--out", "noisy.csv"];
+    let noisy = ["simulate", "scene.toml", "--noise", "noise.toml", "--seed", "1", "--sigmas", "--file", "noisy.csv"];
     assert_eq!(run(&noisy).status.code(), Some(0));
 }
 

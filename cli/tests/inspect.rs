@@ -16,7 +16,7 @@ fn recording() -> &'static [Record] {
     MADE.get_or_init(|| {
         let directory = tempfile::tempdir().unwrap();
         fs::write(directory.path().join("scene.toml"), SCENE).unwrap();
-        let arguments = ["simulate", "scene.toml", "--rate", "100", "--speed", "2e-3", "--out", "made.csv"];
+        let arguments = ["simulate", "scene.toml", "--rate", "100", "--speed", "2e-3", "--file", "made.csv"];
         assert_eq!(vibrissa(directory.path(), &arguments).status.code(), Some(0));
         let text = fs::read_to_string(directory.path().join("made.csv")).unwrap();
         let row = |line: &str| -> Option<Record> {
@@ -423,7 +423,7 @@ fn refusals_of_other_commands_point_to_it() {
     fs::write(directory.path().join("my scan.csv"), "Zeit;Kraft\n0;1\n1;2\n").unwrap();
     for command in [
         &["reconstruct", "my scan.csv"][..],
-        &["calibrate", "my scan.csv", "--out", "found.toml"],
+        &["calibrate", "my scan.csv", "--file", "found.toml"],
         &["live", "--sensor", "file:my scan.csv"],
     ] {
         let output = vibrissa(directory.path(), &[command, &["--rod", "rod.toml"]].concat());
@@ -444,5 +444,5 @@ fn the_report_for_people_has_a_table_of_faults_and_the_command() {
     fs::write(directory.path().join("scan.csv"), own().replace("phi0", "remark7")).unwrap();
     let output = vibrissa(directory.path(), &["inspect", "scan.csv", "--rod", "rod.toml"]);
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(said.contains("to mend:\n  place       field  found"), "{said}");
+    assert!(said.contains("to correct:\n  place       field  found"), "{said}");
 }

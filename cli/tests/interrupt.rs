@@ -181,7 +181,7 @@ fn one_state_can_be_drawn() {
 fn an_interrupted_simulation_ends_with_a_comment_that_the_reader_knows() {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("scene.toml"), SCENE).unwrap();
-    let arguments = ["simulate", "scene.toml", "--rate", "2.4e4", "--out", "out/recording.csv"];
+    let arguments = ["simulate", "scene.toml", "--rate", "2.4e4", "--file", "out/recording.csv"];
     let mut child = start(directory.path(), &arguments);
     let out = directory.path().join("out");
     let begun = || fs::metadata(stage(&out)?.join("recording.csv")).ok().filter(|file| file.len() > 0);
@@ -282,7 +282,7 @@ fn a_paper_interrupted_at_once_has_no_scans() -> Result<(), PaperError> {
 #[test]
 fn contour_and_reconstruct_end_at_once_and_write_nothing() {
     for arguments in [
-        &["contour", "pipe", "--out", "out/contour.csv"][..],
+        &["contour", "pipe", "--file", "out/contour.csv"][..],
         &["reconstruct", "recording.csv", "--rod", "pipe", "--out", "out"],
     ] {
         let directory = tempfile::tempdir().unwrap();

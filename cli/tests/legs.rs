@@ -57,7 +57,7 @@ fn a_recording_goes_there_and_back() {
     let scene = format!("{scene}\n[[sweep.leg]]\nto = [0.08, -0.04]\n\n[contact]\nfriction = 0.3\n");
     fs::write(directory.path().join("legs.toml"), &scene).unwrap();
     let output =
-        vibrissa(directory.path(), &["simulate", "legs.toml", "--rate", "2", "--speed", "1e-3", "--out", "r.csv"]);
+        vibrissa(directory.path(), &["simulate", "legs.toml", "--rate", "2", "--speed", "1e-3", "--file", "r.csv"]);
     assert!(output.status.success(), "{output:?}");
     let mut table = csv::Reader::from_path(directory.path().join("r.csv")).unwrap();
     let rows: Vec<[f64; 7]> = table.deserialize().map(Result::unwrap).collect();
@@ -85,7 +85,7 @@ fn a_recording_goes_about_a_pivot_and_turns_on_the_spot() {
     let directory = tempfile::tempdir().unwrap();
     let turn = "\n[[sweep.leg]]\nangle_to = 80.0\nstep_angle = 1.0\n";
     fs::write(directory.path().join("whisking.toml"), whisking() + turn).unwrap();
-    let output = vibrissa(directory.path(), &["simulate", "whisking.toml", "--rate", "100", "--out", "r.csv"]);
+    let output = vibrissa(directory.path(), &["simulate", "whisking.toml", "--rate", "100", "--file", "r.csv"]);
     assert!(output.status.success(), "{output:?}");
     let mut table = csv::Reader::from_path(directory.path().join("r.csv")).unwrap();
     let rows: Vec<[f64; 7]> = table.deserialize().map(Result::unwrap).collect();

@@ -197,7 +197,7 @@ fn over_a_pseudo_terminal_too() {
 fn a_recording_is_a_sensor_too() {
     let directory = prepared("");
     let dir = directory.path();
-    let output = vibrissa(dir, &["simulate", "scene.toml", "--rate", "2000", "--speed", "0.02", "--out", "clean.csv"]);
+    let output = vibrissa(dir, &["simulate", "scene.toml", "--rate", "2000", "--speed", "0.02", "--file", "clean.csv"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let (output, summary) = listen(dir, "file:clean.csv", &[]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
@@ -283,7 +283,7 @@ fn a_short_silence_is_not_the_end() {
 fn the_budget_and_the_calibration_are_used_and_told() {
     let directory = prepared("[errors]\nclamp_angle = 2.0\ngain = 0.02\n");
     let dir = directory.path();
-    let output = vibrissa(dir, &["simulate", "scene.toml", "--rate", "200", "--speed", "0.02", "--out", "clean.csv"]);
+    let output = vibrissa(dir, &["simulate", "scene.toml", "--rate", "200", "--speed", "0.02", "--file", "clean.csv"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let rod = "[rod]\nlength = 0.1\ndiameter = 0.5e-3\nyoungs_modulus = 206e9\n\
                [calibration]\nlever_along = { value = 1e-3, sigma = 1e-5, unit = \"m\" }\n";
@@ -337,12 +337,7 @@ fn what_cannot_be_listened_to() {
         &on_scene("serial:/dev/null/x:gsv9"),
         &["`gsv9` is no serial sensor that is known, expected one of: gsv8"],
     );
-    refuses(
-        "",
-        &[],
-        &on_scene("serial:/dev/null/x:gsv8"),
-        &["nothing tells what its numbers are in N and N m", "--setup"],
-    );
+    refuses("", &[], &on_scene("serial:/dev/null/x:gsv8"), &["the units of its numbers are unknown", "--setup"]);
     refuses("", &[], &on_scene("serial:/dev/null/x:bota"), &["cannot open the serial port /dev/null/x at 460800 baud"]);
     refuses("", &[], &on_scene("file:nothing.csv"), &["nothing.csv"]);
     refuses("[sensor]\nrate = -1\n", &[], &on_scene("rdt://127.0.0.1"), &["setup.toml:2:8: sensor.rate: rate is -1"]);
@@ -363,7 +358,7 @@ fn stages_and_tares_that_are_none() {
     let free = wrenches(3000, |k| 1e-6 * (k % 7) as f64);
     let files = [("free.csv", free.as_str()), ("rod.toml", ROD)];
     let with = |stage: &'static [&'static str]| [&["--sensor", "file:free.csv", "--rod", "rod.toml"], stage].concat();
-    refuses("", &files, &with(&[]), &["nothing tells where the clamp is; give --stage"]);
+    refuses("", &files, &with(&[]), &["the poses of the clamp are missing; give --stage"]);
     refuses("", &files, &with(&["--stage", "constant:1e-3"]), &["needs the path of the clamp: give --path SCENE"]);
     refuses("", &files, &with(&["--stage", "table:stage.csv"]), &["stage.csv"]);
     for (table, part) in [

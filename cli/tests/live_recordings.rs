@@ -33,7 +33,7 @@ fn felt() -> Felt {
     fs::copy(data("data/turned.cal"), dir.join("turned.cal")).unwrap();
     let output = vibrissa(
         dir,
-        &["simulate", "scene.toml", "--noise", "noise.toml", "--rate", "1000", "--speed", "0.02", "--out", "felt.csv"],
+        &["simulate", "scene.toml", "--noise", "noise.toml", "--rate", "1000", "--speed", "0.02", "--file", "felt.csv"],
     );
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let scene = Scene::read(&dir.join("scene.toml")).unwrap();
@@ -199,7 +199,7 @@ fn what_of_a_recording_is_meant_must_be_said() {
     refuses(
         &tdms,
         &of("'Fx', 'Fy'"),
-        &["file:waveforms.tdms: nothing tells what its numbers are", "calibration or matrix"],
+        &["file:waveforms.tdms: the units of its numbers are unknown", "calibration or matrix"],
     );
     let scale = "[sensor]\nforce_unit = 'mN'\ntorque_unit = 'N m'\nchannels = ['Fx', 'Fy']\n";
     refuses(&tdms, &(of("'Fx', 'Fy'") + scale), &["samples before the end, expected at least 100"]);
@@ -247,7 +247,7 @@ fn gauges_cannot_be_played() {
         vibrissa(dir, &["fake-sensor", "scene.toml", "--protocol", "rdt", "--setup", "setup.toml", "--port", "0"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(
-        complaint(&output).contains("a calibration of gauges, from which a wrench can be told"),
+        complaint(&output).contains("a calibration from gauges to a wrench, which has no inverse"),
         "{}",
         complaint(&output)
     );
@@ -296,7 +296,7 @@ fn volts_are_reconstructed_as_the_reactions_that_they_are_of() {
     assert!(100 * same > 99 * rows.len() && all > rows.len() / 3 && 100 * near > 99 * all, "{same} {all} {near}");
 
     for (arguments, parts) in [
-        (&["--setup", "setup.toml"][..], &["file:volts.tdms: nothing tells where the clamp is; give --stage"][..]),
+        (&["--setup", "setup.toml"][..], &["file:volts.tdms: the poses of the clamp are missing; give --stage"][..]),
         (&STAGE[..], &["volts.tdms: expected group = .. in the table [recording] of a setup", "`Measured`"]),
         (
             &["--setup", "wrong.toml", "--stage", "constant:0.02"],

@@ -52,7 +52,7 @@ fn refuses(directory: &Path, arguments: &[&str], file: &str, why: &str) {
     let output = vibrissa(directory, arguments);
     let message = complaint(&output);
     assert_eq!(output.status.code(), Some(1), "{arguments:?}: {message}");
-    assert!(message.contains(why) && message.contains("--out"), "{arguments:?}: {message}");
+    assert!(message.contains(why) && message.contains("name another file or directory"), "{arguments:?}: {message}");
     assert_eq!(fs::read(directory.join(file)).unwrap(), before, "{arguments:?}");
 }
 
@@ -64,14 +64,14 @@ fn no_input_is_overwritten() {
     fs::write(path.join("states.csv"), "x,y\n0.0,0.02\n0.01,0.02\n0.01,0.03\n0.0,0.03\n").unwrap();
     fs::write(path.join("noise.toml"), "white = { force = 1e-3 }").unwrap();
     let read = "is read by this command";
-    refuses(path, &["simulate", "scene.toml", "--out", "scene.toml"], "scene.toml", read);
-    refuses(path, &["simulate", "scene.toml", "--out", "./states.csv"], "states.csv", read);
-    refuses(path, &["simulate", "scene.toml", "--noise", "noise.toml", "--out", "noise.toml"], "noise.toml", read);
-    refuses(path, &["contour", "scene.toml", "--out", "states.csv"], "states.csv", read);
+    refuses(path, &["simulate", "scene.toml", "--file", "scene.toml"], "scene.toml", read);
+    refuses(path, &["simulate", "scene.toml", "--file", "./states.csv"], "states.csv", read);
+    refuses(path, &["simulate", "scene.toml", "--noise", "noise.toml", "--file", "noise.toml"], "noise.toml", read);
+    refuses(path, &["contour", "scene.toml", "--file", "states.csv"], "states.csv", read);
     refuses(path, &["sweep", "scene.toml", "--out", "."], "states.csv", read);
 
     fs::create_dir(path.join("r")).unwrap();
-    assert!(vibrissa(path, &["simulate", "scene.toml", "--out", "r/contour.csv"]).status.success());
+    assert!(vibrissa(path, &["simulate", "scene.toml", "--file", "r/contour.csv"]).status.success());
     let reconstruct = ["reconstruct", "r/contour.csv", "--rod", "scene.toml", "--out", "r"];
     refuses(path, &reconstruct, "r/contour.csv", read);
     fs::rename(path.join("r/contour.csv"), path.join("r/recording.csv")).unwrap();
@@ -86,7 +86,7 @@ fn a_drawing_that_is_read_is_not_overwritten() {
     let drawing = "[[object]]\n[[object.piece]]\nshape = \"svg\"\nfile = \"bump.svg\"\nscale = 1e-3\n";
     let directory = with_scene(&with_objects(drawing));
     fs::write(directory.path().join("bump.svg"), "<svg><path d=\"M0 -20 h10 v-10 h-10 z\"/></svg>").unwrap();
-    refuses(directory.path(), &["contour", "scene.toml", "--out", "bump.csv"], "bump.svg", "is read by this command");
+    refuses(directory.path(), &["contour", "scene.toml", "--file", "bump.csv"], "bump.svg", "is read by this command");
     assert!(!directory.path().join("bump.csv").exists());
 }
 
@@ -100,13 +100,13 @@ fn no_link_and_no_device_is_replaced() {
         symlink("target", path.join(name)).unwrap();
     }
     fs::write(path.join("target"), "kept").unwrap();
-    assert!(vibrissa(path, &["simulate", "scene.toml", "--out", "r.csv"]).status.success());
+    assert!(vibrissa(path, &["simulate", "scene.toml", "--file", "r.csv"]).status.success());
     let link = "is a link and is not replaced";
-    refuses(path, &["simulate", "scene.toml", "--out", "link.csv"], "target", link);
-    refuses(path, &["contour", "scene.toml", "--out", "link.csv"], "target", link);
-    refuses(path, &["contour", "scene.toml", "--out", "link"], "target", link);
+    refuses(path, &["simulate", "scene.toml", "--file", "link.csv"], "target", link);
+    refuses(path, &["contour", "scene.toml", "--file", "link.csv"], "target", link);
+    refuses(path, &["contour", "scene.toml", "--file", "link"], "target", link);
     refuses(path, &["sweep", "scene.toml", "--out", "."], "target", link);
     refuses(path, &["live", "--sensor", "file:r.csv", "--rod", "scene.toml", "--out", "."], "target", link);
-    refuses(path, &["simulate", "scene.toml", "--out", "/dev/null"], "target", "/dev/null is a device");
+    refuses(path, &["simulate", "scene.toml", "--file", "/dev/null"], "target", "/dev/null is a device");
     assert!(fs::symlink_metadata(path.join("link.csv")).unwrap().is_symlink());
 }

@@ -50,7 +50,7 @@ fn columns_in_any_order_with_others_between_them() {
         }
     }
     let recording = parse(&text).unwrap();
-    assert_eq!(recording.warnings(), ["rec.csv: columns not looked at: note"]);
+    assert_eq!(recording.warnings(), ["rec.csv: columns not used: note"]);
     assert_eq!(recording.rows.len(), 12);
     let sample = recording.rows[11].as_ref().unwrap();
     assert_eq!(sample.pose, Pose { x: -11.25, y: 7.0, phi: 1.5 });
@@ -204,7 +204,7 @@ fn a_time_that_does_not_grow_is_told_of() {
     let recording = parse(&text).unwrap();
     assert_eq!(recording.samples().count(), 20);
     assert_eq!(recording.late, [5, 10].map(Place::Line));
-    assert_eq!(recording.warnings(), ["rec.csv: the time does not grow in 2 of 20 rows, lines 5, 10"]);
+    assert_eq!(recording.warnings(), ["rec.csv: the time does not increase in 2 of 20 rows, lines 5, 10"]);
 }
 
 #[test]
@@ -355,8 +355,8 @@ fn what_a_recorder_wrote() {
     assert_eq!(recording.samples().copied().collect::<Vec<_>>(), expected);
     let warnings = recording.warnings();
     assert_eq!(warnings.len(), 2, "{warnings:?}");
-    assert!(warnings[0].starts_with("rec.csv: columns not looked at: host_time, device_time"), "{warnings:?}");
-    let flagged = "line 11: the quality is saturated, gap before, expected values that the sensor stands for";
+    assert!(warnings[0].starts_with("rec.csv: columns not used: host_time, device_time"), "{warnings:?}");
+    let flagged = "line 11: the sensor flagged the sample: saturated, gap before, expected a sample without flags";
     assert_eq!(warnings[1], format!("rec.csv: 1 of 20 rows cannot be used, {flagged}"));
 
     let cut = Recording::parse("rec.csv".as_ref(), &file[..file.len() - 40], &rod).unwrap();

@@ -314,7 +314,7 @@ fn a_scan_on_springs_is_reconstructed() {
     std::fs::write(dir.path().join("soft.toml"), &scene).unwrap();
     std::fs::write(dir.path().join("rigid.toml"), scene.replace(springs, "")).unwrap();
     let said = |arguments: &[&str]| String::from_utf8(vibrissa(dir.path(), arguments).stdout).unwrap();
-    said(&["simulate", "soft.toml", "--rate", "100", "--speed", "0.01", "--out", "felt.csv"]);
+    said(&["simulate", "soft.toml", "--rate", "100", "--speed", "0.01", "--file", "felt.csv"]);
     let of = |rod: &str| said(&["reconstruct", "felt.csv", "--rod", rod, "--as-is", "--out", "found"]);
     let scene = Scene::parse("soft.toml".as_ref(), &scene).unwrap();
     assert!(scene.rod.springs().is_some());
@@ -351,7 +351,7 @@ fn there_and_back(rod: &str, noise: Option<&str>) -> (Vec<Answer>, serde_json::V
         String::from_utf8(output.stdout).unwrap()
     };
     let simulate =
-        ["simulate", "scene.toml", "--rate", "200", "--speed", "0.01", "--noise", "noise.toml", "--out", "felt.csv"];
+        ["simulate", "scene.toml", "--rate", "200", "--speed", "0.01", "--noise", "noise.toml", "--file", "felt.csv"];
     said(&simulate);
     let with_noise = ["--noise", "noise.toml"];
     let told: &[&str] = if noise.is_none() { &with_noise } else { &[] };
@@ -449,7 +449,7 @@ fn options_that_do_not_apply_to_such_rods_are_refused() {
         String::from_utf8(output.stderr).unwrap()
     };
     let said = message(&["--rod", "scene.toml", "--setup", "errors.toml"]);
-    assert!(said.starts_with("error: --setup: errors.toml has the table [errors], but of a rod"), "{said}");
+    assert!(said.starts_with("error: --setup: errors.toml has the table [errors], but systematic errors"), "{said}");
     let said = message(&["--rod", "known.toml"]);
     assert!(said.starts_with("error: known.toml:6:1: calibration: given for a rod that is not uniform"), "{said}");
     let said = message(&["--rod", "scene.toml", "--setup", "sensor.toml"]);
@@ -463,7 +463,7 @@ fn a_scan_on_springs_is_compared_with_its_scene() {
     let dir = tempfile::tempdir().unwrap();
     std::fs::write(dir.path().join("soft.toml"), format!("[rod]\n{WIRE}{springs}{O1}")).unwrap();
     let run = |arguments: &[&str]| assert!(vibrissa(dir.path(), arguments).status.success());
-    run(&["simulate", "soft.toml", "--rate", "200", "--speed", "0.01", "--out", "felt.csv"]);
+    run(&["simulate", "soft.toml", "--rate", "200", "--speed", "0.01", "--file", "felt.csv"]);
     let reconstruct =
         ["reconstruct", "felt.csv", "--rod", "soft.toml", "--truth", "soft.toml", "--as-is", "--out", "found"];
     run(&reconstruct);
@@ -501,13 +501,13 @@ fn other_commands_refuse_it() {
                 "`vibrissa reconstruct --rod`, which takes any rod",
             ),
             (
-                &["calibrate", "nowhere.csv", "--rod", &file, "--out", "o.toml"],
+                &["calibrate", "nowhere.csv", "--rod", &file, "--file", "o.toml"],
                 "`vibrissa reconstruct --rod` takes any rod",
             ),
             (&["budget", &file], "`vibrissa simulate --noise` and `vibrissa reconstruct --truth` show"),
             (
                 &["fake-sensor", &file, "--protocol", "rdt", "--rate", "-1"],
-                "by `vibrissa simulate`, which takes any clamp",
+                "with `vibrissa simulate`, which takes any clamp",
             ),
         ] {
             let output = vibrissa(dir.path(), arguments);

@@ -16,7 +16,7 @@ fn recorded(scene: &str, rate: &str) -> tempfile::TempDir {
     for (name, text) in [("scene.toml", scene), ("noise.toml", NOISE), ("rod.toml", ROD)] {
         fs::write(path.join(name), text).unwrap();
     }
-    let all = ["simulate", "scene.toml", "--noise", "noise.toml", "--seed", "4", "--rate", rate, "--out", "r.csv"];
+    let all = ["simulate", "scene.toml", "--noise", "noise.toml", "--seed", "4", "--rate", rate, "--file", "r.csv"];
     let output = vibrissa(path, &all);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     directory

@@ -31,7 +31,7 @@ fn contours_of_several_recordings_become_one() {
         fs::write(dir.join(format!("{name}.toml")), scene).unwrap();
         let scene = format!("{name}.toml");
         let noise = ["--noise", "noise.toml", "--rate", "500", "--speed", "0.02"];
-        run(&[&["simulate", &scene, "--out", recording][..], &noise].concat(), 0);
+        run(&[&["simulate", &scene, "--file", recording][..], &noise].concat(), 0);
     }
     let both = ["reconstruct", "a.csv", "b/a.csv", "--rod", "a.toml", "--as-is"];
     run(&[&both[..], &["--out", "out"]].concat(), 0);

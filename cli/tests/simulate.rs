@@ -40,7 +40,7 @@ fn header(file: &Path) -> String {
 /// Checks that there is no recording, and that the message holds all these parts.
 fn refuses(scene: &str, noise: &str, arguments: &[&str], parts: &[&str]) {
     let directory = prepared(scene, noise);
-    let output = simulate(directory.path(), &[arguments, &["--out", "out/r.csv"]].concat());
+    let output = simulate(directory.path(), &[arguments, &["--file", "out/r.csv"]].concat());
     let message = complaint(&output);
     // a wrong option, or a file that is wrong
     assert_eq!(output.status.code(), Some(if message.starts_with("error: --") { 2 } else { 1 }), "{message}");
@@ -153,7 +153,7 @@ fn a_snap_leaves_poses_out_but_no_time() {
 fn a_clamp_that_turns_does_so_in_radians() {
     let turning = "from = [0.05, -0.04]\nto = [0.05, -0.04]\nangle = 120.0\nangle_to = 60.0\nstep_angle = 2.0\n";
     let directory = prepared(&(SCENE[..SCENE.find("from").unwrap()].to_owned() + turning), "");
-    let output = simulate(directory.path(), &["--rate", "10", "--speed", "0.1", "--out", "r.csv"]);
+    let output = simulate(directory.path(), &["--rate", "10", "--speed", "0.1", "--file", "r.csv"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let recorded = rows(&directory.path().join("r.csv"));
     assert_eq!(recorded.len(), 105);
@@ -161,13 +161,32 @@ fn a_clamp_that_turns_does_so_in_radians() {
         assert!((row[3] - (120_f64.to_radians() - 0.01 * k as f64)).abs() < 1e-12);
         assert_eq!(row[0], k as f64 / 10.0);
     }
+    let simulated = |speed: &str| simulate(directory.path(), &["--rate", "10", "--speed", speed, "--file", "r.csv"]);
+    assert_eq!(simulated("6 deg/s").status.code(), Some(0));
+    assert_eq!(rows(&directory.path().join("r.csv")).len(), 101);
+    let message = complaint(&simulated("1 mm/s"));
+    assert!(message.contains("--speed is 1 mm/s, expected an angle per second: the clamp only turns"), "{message}");
+}
+
+#[test]
+fn a_speed_may_have_a_unit() {
+    let directory = prepared(SCENE, "");
+    let recorded = |speed: &str| {
+        let output = simulate(directory.path(), &["--rate", "4", "--speed", speed, "--file", "r.csv"]);
+        assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+        fs::read_to_string(directory.path().join("r.csv")).unwrap()
+    };
+    assert_eq!(recorded("2e-3"), recorded("2 mm/s"));
+    refuses(SCENE, "", &["--speed", "2 deg/s"], &["--speed is 2 deg/s, expected a length per second: the clamp moves"]);
+    let output = simulate(directory.path(), &["--speed", "2 mm"]);
+    assert!(output.status.code() == Some(2) && complaint(&output).contains("as 1 mm/s or 10 deg/s"));
 }
 
 #[test]
 fn a_sweep_that_stops_early_keeps_what_it_has() {
     let into = "from = [0.0, -0.15]\nto = [0.0, 0.05]\nangle = 60.0\nstep = 1e-3\n";
     let directory = prepared(&(SCENE[..SCENE.find("from").unwrap()].to_owned() + into), "");
-    let output = simulate(directory.path(), &["--rate", "10", "--speed", "1e-2", "--out", "r.csv"]);
+    let output = simulate(directory.path(), &["--rate", "10", "--speed", "1e-2", "--file", "r.csv"]);
     let message = complaint(&output);
     assert_eq!(output.status.code(), Some(2), "{message}");
     assert!(message.contains("scene: the sweep stopped at clamp (0.000000000, "), "{message}");
@@ -224,14 +243,19 @@ fn standard_deviations_that_are_not_there() {
 fn a_file_that_cannot_be_written() {
     let directory = prepared(SCENE, "");
     fs::create_dir(directory.path().join("folder")).unwrap();
-    for (out, part) in
-        [("folder", "folder is no name for a file"), ("..", ".. is no name for a file; name one with --out")]
-    {
-        let output = simulate(directory.path(), &["--rate", "1", "--out", out]);
+    for (out, part) in [
+        ("folder", "folder is a directory, expected a file"),
+        ("..", ".. is a directory"),
+        ("results/", "results/ is a directory"),
+    ] {
+        let output = simulate(directory.path(), &["--rate", "1", "--file", out]);
         let message = complaint(&output);
         assert!(output.status.code() == Some(2) && message.contains(part), "{message}");
     }
-    let output = simulate(directory.path(), &["--rate", "1", "--out", "scene.toml/r.csv"]);
+    let output = simulate(directory.path(), &["--rate", "1", "--file", "scene.toml/r.csv"]);
     let message = complaint(&output);
     assert!(message.contains("scene.toml is a file, expected a directory"), "{message}");
+    // as before 0.2.0
+    assert!(simulate(directory.path(), &["--rate", "1", "--out", "r.csv"]).status.success());
+    assert!(directory.path().join("r.csv").is_file());
 }

@@ -36,7 +36,7 @@ fn the_cycles_of_the_paper_and_what_was_touched() {
     let output = vibrissa(directory.path(), &["study", "study.toml"]);
     assert!(output.status.success(), "{output:?}");
     let told = "3 scenes: 3 done, 0 stopped early, 0 refused";
-    assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("{told}; 0 rows were there before")));
+    assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("{told}; 0 rows from an earlier run")));
     let again = vibrissa(directory.path(), &["study", "study.toml", "--jobs", "1"]);
     assert!(again.status.success() && String::from_utf8_lossy(&again.stdout).contains(&format!("{told}; 3 rows")));
     let rows = rows(&directory.path().join("out/study"));
@@ -231,10 +231,7 @@ fn a_study_of_refused_scenes_ends_with_the_same_status_again() {
         assert_eq!(output.status.code(), Some(2));
         assert!(String::from_utf8_lossy(&output.stdout).contains("0 done, 0 stopped early, 2 refused"), "{output:?}");
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(
-            message.contains("the first scene that was refused is 0: ") && message.contains("step is -1"),
-            "{message}"
-        );
+        assert!(message.contains("the first refused scene is 0: ") && message.contains("step is -1"), "{message}");
     }
 }
 

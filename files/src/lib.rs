@@ -1,10 +1,11 @@
 #![doc = include_str!("../README.md")]
 //!
 //! `toml_file` reads TOML with errors that name the place. `scene`, `setup`, `noise_file` and `study` are such files; `recording` is a table of
-//! samples, `film` one of points on the rod and the forces from them, and `live` reads a sensor or a raw recording of one. `elastica` is a rod without contacts, `scan` sweeps a scene, `simulation` records it, `reconstructed` turns a
+//! samples, `film` one of points on the rod and the forces from them, and `live` reads a sensor or a raw recording of one. `elastica` is a rod without contacts, `whisker` average whiskers, `scan` sweeps a scene, `simulation` records it, `reconstructed` turns a
 //! recording back. `output` writes files that appear when they are complete.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
+mod clamp_columns;
 mod cycle;
 mod elastica;
 mod film;
@@ -27,6 +28,7 @@ mod simulation;
 mod study;
 pub mod table;
 mod toml_file;
+mod whisker;
 
 pub use cycle::{CYCLES, Cycle};
 pub use elastica::ElasticaRun;
@@ -45,8 +47,8 @@ pub use noise_file::read_noise;
 pub use output::{OutputError, Staged};
 pub use profile::{Profile, ProfileError, ProfilePoint, write_profile_table};
 pub use reconstructed::{
-    CONTOUR_COLUMNS, Comparison, FittedPoint, Reconstructed, ReconstructionError, Transition, TruthError, hardly_told,
-    naive_touch,
+    CONTOUR_COLUMNS, Comparison, FittedPoint, Reconstructed, ReconstructionError, Transition, TruthError,
+    confounders_text, naive_touch,
 };
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
@@ -55,6 +57,7 @@ pub use scene::{
     read_uniform_rod, unit_of,
 };
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
-pub use simulation::{Simulated, Simulation, SimulationError, Tick, Ticks};
+pub use simulation::{Simulated, Simulation, SimulationError, Speed, Tick, Ticks};
 pub use study::{Measured, Study, StudyError, StudyRow, StudyRun};
 pub use toml_file::{Invalid, SceneError};
+pub use whisker::{Animal, Whisker, WhiskerError, WhiskerSources, mean_curvature};

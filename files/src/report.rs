@@ -1,6 +1,7 @@
 //! What a command says when it is done.
 
 use crate::Scan;
+use crate::clamp_columns::ClampColumns;
 use crate::table::{Table, counted};
 use vibrissa::contact::{Contact, Start, StartCandidate};
 use vibrissa::{Rod, State};
@@ -73,27 +74,26 @@ impl Scan {
     fn event_table(&self) -> String {
         // which contact slips or sticks, where there is friction
         let rubs = self.scene.friction.is_some();
-        let columns = ["kind", "from", "to", "x0 mm", "y0 mm", "phi0 deg", "x0/L", "f0x N", "f0y N", "m0z N mm"];
-        let mut table = Table::new(columns.into_iter().chain(rubs.then_some("contacts, clamp to tip")));
+        let length = self.scene.rod.length();
+        let states = self.outcome.states.iter().map(|state| state.pose);
+        let clamp = ClampColumns::of(states.chain(self.outcome.events.iter().map(vibrissa::Event::pose)), length);
+        let in_lengths = clamp.in_lengths();
+        let pose = clamp.names().chain(in_lengths.map(|column| column.0));
+        let columns = ["kind", "from", "to"].into_iter().chain(pose).chain(["f0x N", "f0y N", "m0z N mm"]);
+        let mut table = Table::new(columns.chain(rubs.then_some("contacts, clamp to tip")));
         let felt = || self.outcome.events.iter().map(|event| event.before.reactions);
         let forces = felt().map(|reactions| reactions.f0x.hypot(reactions.f0y)).fold(0.0, f64::max);
         let moments = felt().map(|reactions| 1e3 * reactions.m0z.abs()).fold(0.0, f64::max);
         for event in &self.outcome.events {
             let (pose, reactions) = (event.pose(), event.before.reactions);
-            let row = [
-                event.kind.to_string(),
-                event.from().to_string(),
-                event.to().to_string(),
-                format!("{:.9}", 1e3 * pose.x),
-                format!("{:.9}", 1e3 * pose.y),
-                format!("{:.9}", pose.phi.to_degrees()),
-                format!("{:.12}", pose.x / self.scene.rod.length()),
-                of_size(reactions.f0x, forces),
-                of_size(reactions.f0y, forces),
-                of_size(1e3 * reactions.m0z, moments),
-            ];
+            let phases = [event.kind.to_string(), event.from().to_string(), event.to().to_string()];
+            let pose = clamp
+                .cells(pose, 9)
+                .chain(in_lengths.map(|(_, coordinate)| format!("{:.12}", coordinate(pose) / length)));
+            let reactions =
+                [of_size(reactions.f0x, forces), of_size(reactions.f0y, forces), of_size(1e3 * reactions.m0z, moments)];
             let modes = rubs.then(|| format!("{} -> {}", modes(&event.before), modes(&event.after)));
-            table.row(row.into_iter().chain(modes));
+            table.row(phases.into_iter().chain(pose).chain(reactions).chain(modes));
         }
         table.to_string()
     }

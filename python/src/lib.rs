@@ -40,6 +40,7 @@ mod single;
 mod state;
 mod study;
 mod sweep;
+mod whisker;
 
 use pyo3::prelude::*;
 
@@ -80,5 +81,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(single::single, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(own_shape::check_contract, module)?)?;
+    module.add_function(wrap_pyfunction!(whisker::_average_whisker, module)?)?;
+    module.add_function(wrap_pyfunction!(whisker::_mean_curvature, module)?)?;
     Ok(())
 }

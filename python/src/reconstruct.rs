@@ -41,7 +41,7 @@ const KINK: &[Column<Kink>] = &[
 ];
 
 const FITTED: &[Column<FittedPoint>] = &[
-    Column { name: "object", get: Get::Int(|row| row.object as i64) },
+    Column { name: "object", get: Get::Int(|row| row.object as i64 - 1) },
     Column { name: "x", get: Get::Float(|row| row.x) },
     Column { name: "y", get: Get::Float(|row| row.y) },
     Column { name: "known", get: Get::Text(|row| row.known.into()) },
@@ -54,7 +54,7 @@ const FITTED: &[Column<FittedPoint>] = &[
 type ShapeRow = (SimpleShape, usize);
 
 const SHAPE: &[Column<ShapeRow>] = &[
-    Column { name: "object", get: Get::Int(|row| row.0.object as i64 + 1) },
+    Column { name: "object", get: Get::Int(|row| row.0.object as i64) },
     Column { name: "first", get: Get::Int(|row| row.0.points.start as i64) },
     Column { name: "last", get: Get::Int(|row| row.0.points.end as i64 - 1) },
     Column { name: "shape", get: Get::Text(|row| row.0.kind.to_string().into()) },
@@ -207,7 +207,7 @@ impl PyReconstruction {
 
     /// The contour that explains the whole recording best, as a structured array; empty where none was fitted.
     ///
-    /// Fields: ``object``, counted from 1; points ``x``, ``y`` (m); ``known``: "touched" where the rod touches there, or nearer to it than to its neighbours, "bounded"
+    /// Fields: ``object``, counted from 0; points ``x``, ``y`` (m); ``known``: "touched" where the rod touches there, or nearer to it than to its neighbours, "bounded"
     /// where it passed outside, "unknown" where it was not; ``sigma``: standard deviation across the contour (m), NaN where it is not touched; ``room``: how far
     /// the object may reach beyond the point at most (m), NaN where it is not bounded; ``vertex``: whether smooth pieces meet at an angle there.
     #[getter]
@@ -219,8 +219,8 @@ impl PyReconstruction {
     /// Simple shapes that explain an object of the fit as well as its free contour does, as a structured array with a row for each parameter; the best shape of
     /// an object first. Empty where no contour explains the recording.
     ///
-    /// Fields: ``object``, counted from 1; ``first`` and ``last``: the points of the object in ``fitted`` of which it tells, counted from 0; ``shape``: "line", "polygon", "arc", "ellipse" or "parabola"; ``evidence``: Bayesian information criterion less that of the
-    /// best shape of the object; ``p_value``: probability of what it leaves more than the free contour; ``parameter``: as the fields of scene files; ``value`` and
+    /// Fields: ``object``, counted from 0; ``first`` and ``last``: the points of the object in ``fitted`` that it describes, counted from 0; ``shape``: "line", "polygon", "arc", "ellipse" or "parabola"; ``evidence``: Bayesian information criterion less that of the
+    /// best shape of the object; ``p_value``: probability of an increase of chi squared over the free contour that is at least as large; ``parameter``: as the fields of scene files; ``value`` and
     /// ``sigma``: in m, 1/m and rad.
     #[getter]
     fn shapes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -233,7 +233,7 @@ impl PyReconstruction {
         structured(py, SHAPE, rows.iter())
     }
 
-    /// What explains a recording that does not fit.
+    /// The likely causes of a misfit.
     ///
     /// Returns
     /// -------

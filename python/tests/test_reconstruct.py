@@ -75,7 +75,7 @@ def test_simulated_and_reconstructed_as_by_the_command(
     file = tmp_path / "recording.csv"
     options = ["--noise", str(tmp_path / "noise.toml"), "--rate", "500", "--speed", "0.01", "--seed", "3"]
     subprocess.run(
-        [*command, "simulate", str(SCENES / "O1_q40.toml"), *options, "--out", str(file)], check=True, capture_output=True
+        [*command, "simulate", str(SCENES / "O1_q40.toml"), *options, "--file", str(file)], check=True, capture_output=True
     )
     samples = vibrissa.simulate(scene, rate=500.0, speed=0.01, noise=NOISE, seed=3)
     rows = list(csv.DictReader(file.open()))
@@ -109,6 +109,7 @@ def test_simulated_and_reconstructed_as_by_the_command(
     if fit:
         fitted = list(csv.DictReader((out / "fitted.csv").open()))
         assert found.is_explained and [float(row["y"]) for row in fitted] == found.fitted["y"].tolist()
+        assert [int(row["object"]) - 1 for row in fitted] == found.fitted["object"].tolist()
     contour = list(csv.DictReader((out / "contour.csv").open()))
     assert [float(row["sigma"]) for row in contour] == found.contour["sigma"].tolist()
     report = json.loads((out / "report.json").read_text())

@@ -61,7 +61,7 @@ def test_frames_of_points_are_sorted_by_frame_and_keep_their_order_within() -> N
 def test_frames_refuse_what_is_none() -> None:
     one = np.array([0, 0])
     x = np.array([0.0, 1.0])
-    assert "frame 4 is not there, expected one of 0" in fault(lambda: Frames(one, x, x, x + 1.0).of(4))
+    assert "frame 4 does not exist, expected one of 0" in fault(lambda: Frames(one, x, x, x + 1.0).of(4))
     assert "expected one dimension and the same length" in fault(lambda: Frames(one, x, x[:1], x))
     assert "frame has entries of type float64, expected integers" in fault(lambda: Frames(x, x, x, x))
     assert "frame 1: sigma is 0.0, expected a positive number" in fault(lambda: Frames(one + 1, x, x, x))
@@ -130,7 +130,7 @@ def test_a_csv_file_with_faults_names_their_lines(tmp_path: Path) -> None:
     for scale in (0.0, -1.0, float("nan")):
         assert f"scale is {scale}, expected a positive number, m for a pixel" in read("frame,x,y\n0,0,0\n0,1,1\n", scale=scale)
     file.write_bytes(b"\xff\xfe\x00")
-    assert "is no text" in fault(lambda: read_frames(file))
+    assert "is not text" in fault(lambda: read_frames(file))
 
 
 # WHISK
@@ -300,7 +300,7 @@ def test_whiskiwrap_files_with_faults(tmp_path: Path) -> None:
         f"{file}: the dataset 'pixels_y' is missing, expected one of summary",
     ]
     file.write_text("frame,x,y\n")
-    assert fault(lambda: read_whiskiwrap(file, scale=1.0)) == f"{file}: is no HDF5 file, expected one"
+    assert fault(lambda: read_whiskiwrap(file, scale=1.0)) == f"{file}: is not an HDF5 file, expected one"
     file.write_bytes(b"\x89HDF\r\n\x1a\nx")
     assert "is damaged" in fault(lambda: read_whiskiwrap(file, scale=1.0))
 

@@ -27,7 +27,7 @@ def test_a_rats_c1() -> None:
     assert whisker.base_diameter == pytest.approx(160.5e-6, rel=1e-12)
     assert (whisker.tip_diameter, whisker.youngs_modulus) == (3e-6, 3.34e9)
     assert whisker.curvature_coefficient == pytest.approx(8.85, rel=1e-12)
-    for part in ("Zweifel", "Belli", "Quist", "tip diameter: an estimate", "without standard deviations"):
+    for part in ("Zweifel", "Belli", "Quist", "tip diameter: an estimate", "without standard deviation"):
         assert part in whisker.source
     assert rat(3, 1) == whisker
     assert rat("D", 0).length == pytest.approx(52.6e-3) and rat("E", 5).length == pytest.approx(9.4e-3)
@@ -39,8 +39,8 @@ def test_a_mouses_c2() -> None:
     assert whisker.base_diameter == pytest.approx(2.0 * 2.1e-3 * 15.3e-3, rel=1e-12)
     assert (whisker.tip_diameter, whisker.youngs_modulus) == (3e-6, 5e9)
     assert whisker.curvature_coefficient == pytest.approx(9.4, rel=1e-12)
-    assert whisker.source.startswith("length: measured mean of 12 whiskers, standard deviation 1.3 mm; curvature: measured mean of 11 whiskers, ")
-    assert "standard deviation of the coefficient 4.5 1/m, both of the data of Bresee et al. (2023)" in whisker.source
+    assert whisker.source.startswith("length: measured mean of 12 whiskers, standard deviation 1.3 mm, Bresee et al. (2023); curvature: measured mean of 11 ")
+    assert "standard deviation of the coefficient 4.5 1/m, Bresee et al. (2023)" in whisker.source
     for part in ("base diameter: an estimate of +-25 %", "tip diameter: an estimate", "Young's modulus: an estimate"):
         assert part in whisker.source
     assert mouse(3, 2) == whisker

@@ -189,7 +189,7 @@ def read_study(directory: str | os.PathLike[str], *, incomplete: bool = False) -
     if "parameters" not in record:
         return _of_command(place, record, incomplete)
     if record["scenes"] is None and not incomplete:
-        raise ValueError(f"directory is {place}, whose run is not complete; make the same call of study again to go on")
+        raise ValueError(f"directory is {place}, whose run is not complete; make the same call of study again to continue")
     import pyarrow.parquet as pq
 
     form = schema(record, {})
@@ -211,7 +211,7 @@ def _of_command(place: Path, record: dict[str, Any], incomplete: bool) -> Any:
 
     whole = place / "rows.csv"
     if not whole.exists():
-        hint = "; give the same command again to go on" if not incomplete else ", and its parts have no names of columns"
+        hint = "; give the same command again to continue" if not incomplete else ", and its parts have no names of columns"
         raise ValueError(f"directory is {place}, whose run is not complete{hint}")
     with csv.open_csv(whole) as reader:
         names = reader.schema.names

@@ -93,7 +93,7 @@ class Frames:
         """
         first, end = np.searchsorted(self.frame, [frame, frame + 1])
         if first == end:
-            raise ValueError(f"frame {frame} is not there, expected one of {_some(self.numbers.tolist())}")
+            raise ValueError(f"frame {frame} does not exist, expected one of {_some(self.numbers.tolist())}")
         return np.column_stack([self.x[first:end], self.y[first:end]])
 
     def write_csv(self, path: _File) -> None:
@@ -564,7 +564,7 @@ def _csv_rows(file: _File) -> list[tuple[int, list[str]]]:
             reader = csv.reader(stream)
             return [(reader.line_num, row) for row in reader if row]
     except (UnicodeDecodeError, csv.Error) as error:
-        raise ValueError(f"{file}: is no text ({error}), expected a CSV file") from error
+        raise ValueError(f"{file}: is not text ({error}), expected a CSV file") from error
 
 
 def _number(cell: str, where: str, faults: list[str], gaps: bool = False) -> float:
@@ -607,7 +607,7 @@ def _is_hdf5(file: _File) -> bool:
 def _hdf5(file: _File) -> Any:
     """An HDF5 file, open to read."""
     if not _is_hdf5(file):
-        raise ValueError(f"{file}: is no HDF5 file, expected one")
+        raise ValueError(f"{file}: is not an HDF5 file, expected one")
     h5py = _optional("h5py")
     try:
         return h5py.File(file, "r")

@@ -24,7 +24,7 @@ use vibrissa::reconstruct::{NoiseError, ReconstructError};
 pub enum BudgetError {
     /// The sweep has no single contact.
     #[error(
-        "{scene}: no sample of the sweep has a single contact, expected some: contact points of single contacts are judged"
+        "{scene}: no sample of the sweep has a single contact, expected some: the forecast is of their contact points"
     )]
     NoContact {
         /// Name of the scene.

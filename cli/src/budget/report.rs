@@ -41,15 +41,15 @@ impl Expected {
         let row = |name: &str, before: f64, after: f64| {
             [name.to_owned(), "-".into(), "-".into(), "-".into(), mm(before), mm(after)]
         };
-        table.row(row("all that samples share", before, after));
+        table.row(row("all systematic errors", before, after));
         table.row(row("noise", forecast.noise, forecast.noise));
         table.row(row("all", before.hypot(forecast.noise), forecast.total()));
         write!(text, "{table}")?;
         if let Some(known) = forecast.with_known_friction {
             writeln!(
                 text,
-                "if the coefficient of friction were known exactly, errors that all samples share would be {} mm after calibration in place \
-                 of {}",
+                "with an exactly known coefficient of friction, the systematic errors after calibration would be {} mm instead of \
+                 {} mm",
                 mm(known),
                 mm(after)
             )?;
@@ -65,7 +65,7 @@ impl Expected {
             Factor::Is(factor) => {
                 writeln!(
                     text,
-                    "for {target} mm after calibration: {factor:.2} times the noise, bias and drift of the sensor"
+                    "{target} mm after calibration need {factor:.2} times the noise, bias and drift of the sensor"
                 )?;
             }
             Factor::NotEnough(_) => {
@@ -73,8 +73,8 @@ impl Expected {
                     self.forecast.largest(LARGEST).iter().map(|share| share.source.to_string()).collect();
                 writeln!(
                     text,
-                    "for {target} mm a better sensor is not enough: other errors remain, most of all {}; make them smaller or state \
-                     them better, or calibrate with several recordings",
+                    "{target} mm need more than a better sensor: other errors remain, most of all {}; reduce them, state \
+                     them more exactly, or calibrate with several recordings",
                     names.join(", ")
                 )?;
             }

@@ -1,7 +1,7 @@
 //! A calibration in words.
 
 use super::result::RodCalibration;
-use rod_files::hardly_told;
+use rod_files::confounders_text;
 use rod_files::table::Table;
 use std::fmt::Write;
 use vibrissa::reconstruct::{Source, SourceEstimate};
@@ -12,7 +12,7 @@ const NOTHING: f64 = 1e-9;
 const MOST: usize = 5;
 
 impl RodCalibration {
-    /// The sources with budget, estimate and standard deviation, what is not told apart, and the rod as it was found.
+    /// The sources with budget, estimate and standard deviation, the pairs that are not separated, and the calibrated rod.
     pub fn report(&self) -> String {
         let mut text = String::new();
         let count = self.recordings.len();
@@ -38,10 +38,10 @@ impl RodCalibration {
         let mut ties: Vec<String> = self.combined.ties.iter().map(|(a, b, _)| format!("{a} and {b}")).collect();
         ties.dedup();
         if !ties.is_empty() {
-            let _ = writeln!(text, "not told apart: {}", ties.join("; "));
+            let _ = writeln!(text, "not separated: {}", ties.join("; "));
         }
         for (number, (name, estimate)) in self.named().enumerate() {
-            let others = hardly_told(estimate.value, estimate.sigma, &self.combined.confused(number));
+            let others = confounders_text(estimate.value, estimate.sigma, &self.combined.confounders(number));
             if estimate.source == Source::Friction && !others.is_empty() {
                 let _ = writeln!(text, "{name}: mu = {:.4} +- {:.1e}{others}", estimate.value, estimate.sigma);
             }
@@ -77,7 +77,7 @@ impl RodCalibration {
     /// What each pass says on its own of the sources that differ most.
     fn differences(&self) -> String {
         let mut text = String::from(
-            "the recordings contradict each other; each on its own says (those that differ most first):\n",
+            "the recordings contradict each other; the estimates of each recording, largest differences first:\n",
         );
         let apart = |source: Source| {
             let all: Vec<_> = self.each.iter().filter_map(|(_, one)| one.source(source)).collect();

@@ -13,7 +13,7 @@ use vibrissa::{Rod, Settings};
 pub enum CalibrateError {
     /// No source has a budget.
     #[error(
-        "nothing to calibrate: the budget of every source that is looked for is 0; change the table [errors] of --setup, or --free"
+        "nothing to calibrate: the budget of every requested source is 0; change the table [errors] of --setup, or --free"
     )]
     Nothing,
     /// A recording cannot be reconstructed.
@@ -99,7 +99,7 @@ fn contradictions(combined: &Combined) -> Vec<String> {
         let (name, unit) = estimate.source.name();
         let space = if unit.is_empty() { "" } else { " " };
         found.push(format!(
-            "{name}: the estimate {:+.3e}{space}{unit} is {:.1} standard deviations off what was known",
+            "{name}: the estimate {:+.3e}{space}{unit} is {:.1} standard deviations away from the known value",
             estimate.value,
             estimate.off()
         ));

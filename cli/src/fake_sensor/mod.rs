@@ -80,8 +80,8 @@ pub enum FakeError {
     },
     /// There is no way back from a wrench to the gauges.
     #[error(
-        "the setup has a calibration of gauges, from which a wrench can be told, but not the gauges from a wrench; give units, \
-         or counts, in the table [sensor]"
+        "the setup has a calibration from gauges to a wrench, which has no inverse; expected units, or counts, in the table \
+         [sensor]"
     )]
     Gauges,
     /// A pace that is none.
@@ -116,7 +116,7 @@ impl FakeScan {
         let pace = rate * self.faster;
         let Self { simulation, setup, protocol, port, scaling_port, .. } = self;
         let name = simulation.scene.name.clone();
-        let playing = format!("{name}, {rate} samples a second of the scene, {pace} of the clock on the wall");
+        let playing = format!("{name}, {rate} samples per second of the scene, {pace} per second of real time");
         let scaling = RdtScaling {
             force_unit: unit("N", Dimension::Force, 1.0),
             torque_unit: unit("N mm", Dimension::Torque, 1e-3),
@@ -213,7 +213,7 @@ fn play_rdt(
     });
     let fake = FakeRdt::start(settings, records).map_err(|source| FakeError::Place { place, source })?;
     let scaling = fake.scaling_address().map(|address| format!("?scaling={}", address.port())).unwrap_or_default();
-    tell(&format!("rdt://{}{scaling}: {playing}; waits to be started", fake.address()));
+    tell(&format!("rdt://{}{scaling}: {playing}; waits for a client", fake.address()));
     while !fake.ended() && !stopped() {
         thread::sleep(LOOK);
     }

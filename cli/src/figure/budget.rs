@@ -22,7 +22,7 @@ pub(crate) fn budget(name: &str, forecast: &Forecast) -> Result<String, FigureEr
     let sources = forecast.sources.iter().map(|share| (share.source.name().0, share.displacement));
     let noise = [forecast.noise; 2];
     let rows: Vec<(&str, [f64; 2])> =
-        sources.chain([("all that samples share", forecast.shared), ("noise", noise)]).collect();
+        sources.chain([("all systematic errors", forecast.shared), ("noise", noise)]).collect();
     let largest = rows.iter().flat_map(|row| row.1).fold(f64::MIN_POSITIVE, f64::max);
     let high = (1e3 * largest).log10().ceil();
     let low = high - DECADES;

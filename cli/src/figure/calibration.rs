@@ -60,7 +60,7 @@ pub(crate) fn calibration(residuals: &[Vec<Residual>; 2]) -> Result<String, Figu
     let across = 0.0..(1e3 * longest).max(1e-3);
     svg((PAGE, HEAD + 3 * PLOT + FOOT), |root| {
         let (head, mut rest) = root.split_vertically(HEAD);
-        write(&head, "What the phases require to be 0, dimensionless", (24, 36), HPos::Left, TITLE, INK)?;
+        write(&head, "Conditions of the phases, 0 in theory, dimensionless", (24, 36), HPos::Left, TITLE, INK)?;
         for (colour, (name, x)) in COLOURS.into_iter().zip([("before", 24), ("after the calibration", 200)]) {
             head.draw(&Element::circle((x + 14, 84), 7.0, colour.filled()))?;
             write(&head, name, (x + 34, 84), HPos::Left, BODY, INK)?;

@@ -1,12 +1,15 @@
 //! Scenes to begin with.
 
-use rod_files::OutputError;
+mod whisker;
+
+use rod_files::{OutputError, Whisker};
+use std::borrow::Cow;
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 /// A commented scene that can be swept as it is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum FirstScene {
     /// A rod past an ellipse.
@@ -18,32 +21,32 @@ pub enum FirstScene {
     Whisking,
     /// A scene with the commands that simulate a recording and reconstruct the object.
     Recording,
+    /// An average whisker of a rat or mouse that turns past a peg and back.
+    Whisker(Whisker),
 }
 
 impl FirstScene {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Ellipse, Self::Polygon, Self::Whisking, Self::Recording];
-
     /// The text of the scene file.
     ///
     /// ```
     /// use vibrissa_cli::FirstScene;
     /// assert!(FirstScene::Whisking.text().contains("pivot"));
     /// ```
-    pub fn text(self) -> &'static str {
-        match self {
+    pub fn text(&self) -> Cow<'static, str> {
+        Cow::Borrowed(match self {
             Self::Ellipse => include_str!("scene.toml"),
             Self::Polygon => include_str!("polygon.toml"),
             Self::Whisking => include_str!("whisking.toml"),
             Self::Recording => include_str!("recording.toml"),
-        }
+            Self::Whisker(whisker) => return Cow::Owned(whisker::scene(whisker)),
+        })
     }
 
     /// Writes it to a new file.
     ///
     /// # Errors
     /// [`OutputError::Exists`] where there is a file, a link or anything else of this name; [`OutputError::File`].
-    pub fn write(self, file: &Path) -> Result<(), OutputError> {
+    pub fn write(&self, file: &Path) -> Result<(), OutputError> {
         let failed = |source: std::io::Error| match source.kind() {
             ErrorKind::AlreadyExists => OutputError::Exists { file: file.to_path_buf() },
             _ => OutputError::File { file: file.to_path_buf(), source },

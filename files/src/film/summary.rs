@@ -98,15 +98,15 @@ impl FilmForces {
         if let Some((number, judged)) = worst {
             let (_, count) = self.failures();
             warnings.push(format!(
-                "{} of {}: no shape with the contacts that are allowed; worst is frame {number} with chi squared {:.0} of {}; friction, \
-                 another shape at rest, points that are not of the rod, or more noise than is given?",
+                "{} of {} fit no shape with the allowed contacts; the worst is frame {number} with chi squared {:.0} for {} degrees of freedom: \
+                 check friction, shape at rest, noise, and whether all points are on the rod",
                 count, counted(self.frames.len(), "frame"), judged.chi_squared, judged.freedom
             ));
         }
         if let Some(frame) = self.other_at_rest {
             warnings.push(format!(
-                "the frames of the free rod do not show one shape: frame {frame} of them differs most; is the rod free in all of them, and each in order \
-                 from the base?"
+                "the frames of the free rod have no common shape: frame {frame} differs most; is the rod free in all of them, and are the points in \
+                 order from the base?"
             ));
         }
         warnings.extend(self.pole_in_doubt());
@@ -123,12 +123,12 @@ impl FilmForces {
     fn pole_in_doubt(&self) -> Vec<String> {
         let Some(prior) = self.settings.pole else { return Vec::new() };
         let Some(pole) = self.film.pole.as_ref() else {
-            let alone = "each frame is judged without a pole";
+            let alone = "each frame is explained without a pole";
             let has_contacts = self.film.frames.iter().flatten().any(|judged| !judged.contacts.is_empty());
             return match (has_contacts, prior.center.is_some() || prior.radius.is_some()) {
-                (false, _) => vec!["no frame has a contact, so that none shows a pole".into()],
+                (false, _) => vec!["no frame has a contact, so that no pole is found".into()],
                 (true, true) => vec![format!(
-                    "the frames contradict the pole that is given: {alone}; --pole alone finds the pole that the frames show, if there is one"
+                    "the frames contradict the given pole: {alone}; --pole without numbers looks for the pole of the frames"
                 )],
                 (true, false) => vec![format!(
                     "no pole explains nine tenths of the frames with a contact: {alone}; is there one round object, and is it fixed?"
@@ -152,7 +152,7 @@ impl FilmForces {
         let share = *shares.get(shares.len() / 2)?;
         (self.settings.sigma.is_some() && share < LESS_NOISE).then(|| {
             format!(
-                "the points are {:.0} times less noisy than the standard deviation that is given, {:.2e} m: forces may be taken for noise; --sigma is in m, also with --scale",
+                "the noise of the points is {:.0} times smaller than the given standard deviation of {:.2e} m, so that forces may be taken for noise; --sigma is in m, also with --scale",
                 1.0 / share.max(1e-9),
                 self.film.sigma
             )
@@ -164,7 +164,7 @@ impl FilmForces {
         let share = self.film.sigma / self.rod.rod.length();
         (self.settings.sigma.is_none() && share > MUCH_NOISE && self.frames.iter().any(|(_, frame)| frame.points.len() > 3)).then(|| {
             format!(
-                "the shapes leave {:.1} % of the length as noise of the points, more than tracked points have: are length, shape at rest and scale right?",
+                "the residuals of the points are {:.1} % of the length, more than the noise of tracked points: are length, shape at rest and scale right?",
                 1e2 * share
             )
         })
@@ -185,18 +185,18 @@ impl FilmForces {
         let share = *shares.get(shares.len() / 2)?;
         if share > TOO_LONG {
             return Some(format!(
-                "the points show {:.0} % of the rod: is its length, or the scale, that of the film?",
+                "the points cover {:.0} % of the rod: are its length and the scale right?",
                 1e2 * share
             ));
         }
         let first = &self.frames.iter().find(|(_, frame)| frame.points.len() > 2)?.1;
         let taken = match (first.base_is_first, first.tip_is_last) {
             (true, false) => {
-                "the first point is taken as the base and the tip as not seen; if the base is hidden, say --visible tip; if neither is, the rod is shorter than its file says"
+                "the first point is taken for the base, and the tip for hidden; if the base is hidden, use --visible tip; if neither is, the rod is shorter than in its file"
             }
-            (false, true) => "the last point is taken as the tip and the base as not seen",
+            (false, true) => "the last point is taken for the tip, and the base for hidden",
             _ => return None,
         };
-        (share < WHOLE).then(|| format!("the points show {:.0} % of the rod: {taken}", 1e2 * share))
+        (share < WHOLE).then(|| format!("the points cover {:.0} % of the rod: {taken}", 1e2 * share))
     }
 }

@@ -25,7 +25,8 @@ pub(super) fn tdms(path: &Path, file: &mut InspectedFile) {
         file.fault(None, "file", fault.to_string(), "a file that is complete");
     }
     file.questions.push(Question {
-        text: "which channels of which group are the gauges, and what makes N and N m of their values?".to_owned(),
+        text: "which channels of which group are the gauges, and which calibration converts their values to N and N m?"
+            .to_owned(),
         answers: vec![
             "--setup FILE with calibration or matrix in [sensor], and group and columns in [recording]".to_owned(),
         ],

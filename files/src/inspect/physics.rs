@@ -47,12 +47,12 @@ pub(super) fn physics(
     let names = columns.names.each_ref().map(String::as_str);
     let decided = verdict.filter(|verdict| verdict.is_decided);
     match &verdict {
-        None => file.fact("frame", "the physics cannot tell axes and signs: too few samples in contact beyond the noise, or no line of tangential contacts"),
+        None => file.fact("frame", "the physics does not determine axes and signs: too few samples in contact beyond the noise, or no line of tangential contacts"),
         Some(verdict) => {
             if let Some([x, y, z]) = verdict.offset {
                 let [a, b, c] = names;
                 let found = format!(
-                    "{a} {x:.3e}, {b} {y:.3e}, {c} {z:.3e} at the start, where nothing changes: not tared; subtracted for the frame, and \
+                    "{a} {x:.3e}, {b} {y:.3e}, {c} {z:.3e} at the start, where the reactions are constant: the sensor is not tared; subtracted to find the frame, and \
                      estimated by `reconstruct`"
                 );
                 file.fact("offset", found);
@@ -109,7 +109,7 @@ fn report_frame(file: &mut InspectedFile, verdict: &FrameVerdict, names: [&str; 
     );
     let text = best.frame.text(names);
     let found = match (is_decided, best.frame.is_as_is(), best.frame.is_load()) {
-        (false, _, _) => format!("the physics cannot tell axes and signs; {text} {agreement}"),
+        (false, _, _) => format!("the physics does not determine axes and signs; {text} {agreement}"),
         (true, true, _) => format!("the physics confirms {text}: it {agreement}"),
         (true, _, true) => {
             format!("the columns are loads on the sensor, the opposite of reactions on the rod: {text} {agreement}")
@@ -146,7 +146,7 @@ fn contradiction(columns: &Reacting, verdict: &FrameVerdict, rod: &Rod) -> Quest
             "the reactions give {ratio:.3e} times the bending stiffness of the rod ({stiffness:.4e} N m^2): is it another rod, or is a unit wrong? \
              Forces in mN taken for N give 1e-3, moments in N mm taken for N m give 1e6"
         ),
-        answers: vec![format!("--unit {x}=... --unit {y}=... --unit {z}=... (as they are, if the rod is another one)")],
+        answers: vec![format!("--unit {x}=... --unit {y}=... --unit {z}=... (unchanged, if the rod is another one)")],
     }
 }
 

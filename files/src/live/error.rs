@@ -20,8 +20,8 @@ pub enum LiveError {
     },
     /// The scale of the sensor's numbers is not known.
     #[error(
-        "{address}: nothing tells what its numbers are in N and N m; give force_unit and torque_unit, and the counts per unit of \
-         each where it sends counts, or a calibration or matrix, in the table [sensor] of a setup (--setup FILE)"
+        "{address}: the units of its numbers are unknown; give force_unit and torque_unit, and the counts per unit of \
+         each if it sends counts, or a calibration or matrix, in the table [sensor] of a setup (--setup FILE)"
     )]
     NoScale {
         /// Its address.
@@ -75,7 +75,7 @@ pub enum LiveError {
     )]
     NoPath,
     /// The pose of the clamp is not known.
-    #[error("{address}: nothing tells where the clamp is; give --stage constant:SPEED or table:FILE")]
+    #[error("{address}: the poses of the clamp are missing; give --stage constant:SPEED or table:FILE")]
     NoStage {
         /// Where the samples come from.
         address: String,

@@ -53,6 +53,6 @@ impl Physics {
         let found =
             reconstruct_passes(rod, &self.samples, &settings).map_or_else(|_| Vec::new(), |found| found.findings());
         let friction = found.iter().filter(|finding| matches!(finding, Finding::Friction { .. }));
-        friction.map(|finding| format!("{finding}: live answers are without, and wrong")).collect()
+        friction.map(|finding| format!("{finding}; live contact points neglect friction and are wrong")).collect()
     }
 }

@@ -6,12 +6,15 @@ use super::scan::LiveScan;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use vibrissa::Label;
 use vibrissa::hw::{LinkCounters, Quality, ReactionSample, SensorCheck, SensorFinding, Timekeeper};
 use vibrissa::reconstruct::{Calibration, LiveSettings, Reading, SourceEstimate, Touch};
+use vibrissa::{Label, Pose};
 
-/// Probability of a label below which it is told.
+/// Probability of a label below which it is printed.
 const UNSURE: f64 = 0.95;
+
+/// Way of a clamp that only turns, in lengths of the rod: above the rounding of its pose.
+const STANDS: f64 = 1e-6;
 
 /// Why a live scan ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -56,6 +59,10 @@ pub struct LiveReport {
     first_miss: Option<String>,
     silent: u32,
     jitter: f64,
+    /// Length of the rod, m.
+    length: f64,
+    /// The pose of the first sample.
+    start: Option<Pose>,
 }
 
 impl LiveReport {
@@ -83,6 +90,8 @@ impl LiveReport {
             first_miss: None,
             silent: 0,
             jitter: 0.0,
+            length: scan.rod.length(),
+            start: None,
         }
     }
 
@@ -108,6 +117,7 @@ impl LiveReport {
 
     pub(super) fn sample(&mut self, sample: &ReactionSample) {
         self.samples += 1;
+        self.start.get_or_insert(sample.pose);
         self.silent = 0;
         self.losses.push(sample);
         for name in sample.quality.names() {
@@ -168,7 +178,21 @@ impl LiveReport {
             Err(reason) => reason.to_string(),
         };
         let good = if sample.quality == Quality::empty() { String::new() } else { format!("  [{}]", sample.quality) };
-        format!("{:10.3} s  x0 {:8.3} mm  {phase:<10}  {point}{good}", sample.t, 1e3 * sample.pose.x)
+        let clamp = self.coordinate(sample.pose);
+        format!("{:10.3} s  {clamp}  {phase:<10}  {point}{good}", sample.t)
+    }
+
+    /// The coordinate of the clamp that has changed most since the first sample, in words; x0 before any has.
+    fn coordinate(&self, pose: Pose) -> String {
+        let first = self.start.unwrap_or(pose);
+        let [dx, dy] = [pose.x - first.x, pose.y - first.y].map(f64::abs);
+        if dx.max(dy) <= STANDS * self.length && pose.phi != first.phi {
+            format!("phi0 {:8.3} deg", pose.phi.to_degrees())
+        } else if dy > dx {
+            format!("y0 {:8.3} mm", 1e3 * pose.y)
+        } else {
+            format!("x0 {:8.3} mm", 1e3 * pose.x)
+        }
     }
 
     /// The report as text.

@@ -12,7 +12,7 @@ use tempfile::TempDir;
 #[non_exhaustive]
 pub enum OutputError {
     /// The directory cannot be made or written to.
-    #[error("cannot write into the directory {}: {source}; name another one with --out", directory.display())]
+    #[error("cannot write into the directory {}: {source}; name another one", directory.display())]
     Directory {
         /// Which directory.
         directory: PathBuf,
@@ -20,7 +20,7 @@ pub enum OutputError {
         source: io::Error,
     },
     /// A file is where a directory is to be.
-    #[error("{} is a file, expected a directory; name another one with --out", file.display())]
+    #[error("{} is a file, expected a directory; name another one", file.display())]
     NoDirectory {
         /// Which file.
         file: PathBuf,
@@ -31,8 +31,14 @@ pub enum OutputError {
         /// The name.
         file: PathBuf,
     },
+    /// A directory is where a file is to be.
+    #[error("{} is a directory, expected a file", directory.display())]
+    IsDirectory {
+        /// Which directory.
+        directory: PathBuf,
+    },
     /// A path that leads to no file.
-    #[error("{} is no name for a file; name one with --out", file.display())]
+    #[error("{} is no name for a file; name one with --file", file.display())]
     NoFile {
         /// The path.
         file: PathBuf,
@@ -44,7 +50,7 @@ pub enum OutputError {
         file: PathBuf,
     },
     /// An output would replace something that is no plain file.
-    #[error("{} is {what} and is not replaced; name another file or directory with --out", file.display())]
+    #[error("{} is {what} and is not replaced; name another file or directory", file.display())]
     Special {
         /// Its name.
         file: PathBuf,
@@ -52,7 +58,7 @@ pub enum OutputError {
         what: &'static str,
     },
     /// An output would replace an input.
-    #[error("{} is read by this command and would be overwritten; name another file or directory with --out", file.display())]
+    #[error("{} is read by this command and would be overwritten; name another file or directory", file.display())]
     Input {
         /// Which file.
         file: PathBuf,
@@ -115,13 +121,12 @@ impl Staged {
     /// Files for the directory of the file `out`, and the name of that one there.
     ///
     /// # Errors
-    /// [`OutputError::NoFile`], and those of [`new`](Self::new).
+    /// [`OutputError::IsDirectory`], [`OutputError::NoFile`], and those of [`new`](Self::new).
     pub fn of_file(out: &Path) -> Result<(Self, &Path), OutputError> {
-        let no_file = || OutputError::NoFile { file: out.to_path_buf() };
-        let name = out.file_name().map(Path::new).ok_or_else(no_file)?;
-        if out.is_dir() {
-            return Err(no_file());
+        if out.is_dir() || out.as_os_str().as_encoded_bytes().ends_with(b"/") {
+            return Err(OutputError::IsDirectory { directory: out.to_path_buf() });
         }
+        let name = out.file_name().map(Path::new).ok_or_else(|| OutputError::NoFile { file: out.to_path_buf() })?;
         check_output(out, &[])?;
         // The directory of a bare name is the empty path, which cannot be made.
         let directory = out.parent().filter(|directory| !directory.as_os_str().is_empty()).unwrap_or(".".as_ref());

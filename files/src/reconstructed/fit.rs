@@ -49,8 +49,8 @@ impl Reconstructed {
         }
         let [from, to] = self.rows_of(self.several_for_one.iter().max_by_key(|run| run.len())?);
         Some(format!(
-            "the contour of the fit has several contacts in {count} samples, as rows {from} to {to}, where each alone was answered by one: a contact that \
-             passes fast along a flank looks like two at its ends; if the object is convex, its points there are wrong"
+            "the fit has several contacts in {count} samples, for example in rows {from} to {to}, where each sample alone has one: a contact that \
+             moves fast along a flank resembles two at its ends; if the object is convex, the points there are wrong"
         ))
     }
 
@@ -112,15 +112,17 @@ impl Reconstructed {
         let missing = fit.runs().into_iter().filter(|run| run.1.is_none()).map(|run| self.rows_of(&run.0));
         if let Some([from, to]) = missing.max_by_key(|[from, to]| to - from).filter(|_| fit.goodness.is_unreached()) {
             let share = 100.0 * fit.goodness.unreached;
-            why += &format!("; at {share:.0} % of the samples, as rows {from} to {to}, the rod cannot be on it");
+            why += &format!(
+                "; in {share:.0} % of the samples, for example in rows {from} to {to}, the rod has no equilibrium on it"
+            );
         }
-        // where the contacts seem to rub, errors stand in for friction
+        // where there is friction, the estimates of errors contain it
         let rubs = self.check.findings.iter().any(|finding| matches!(finding, Finding::Friction { .. }));
         if let Some((source, off)) = fit.goodness.error_beyond_budget().filter(|_| !rubs) {
-            why += &format!("; its {source} is off what is known by {:.0} standard deviations of that", off.abs());
+            why += &format!("; its {source} is {:.0} standard deviations away from the known value", off.abs());
         }
         Some(
-            why + ": the points there may be wrong, the object, the rod or the sensor changed, or the fit had no good start; compare the \
+            why + ": the contact points there may be wrong, the object, the rod or the sensor changed, or the fit had a poor start; compare the \
                    labels in phases.svg with `fit.runs` in report.json",
         )
     }

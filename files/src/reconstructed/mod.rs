@@ -17,5 +17,5 @@ pub use files::COLUMNS as CONTOUR_COLUMNS;
 pub use fit::FittedPoint;
 pub(crate) use points::PointRecord;
 pub use result::{Reconstructed, ReconstructionError};
-pub use summary::hardly_told;
+pub use summary::confounders_text;
 pub use truth::naive_touch;

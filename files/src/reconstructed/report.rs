@@ -138,8 +138,8 @@ struct FrictionRecord {
     /// First and last row.
     rows: [usize; 2],
     used: f64,
-    is_there: bool,
-    is_told_apart: bool,
+    is_significant: bool,
+    is_identified: bool,
     #[serde(flatten)]
     found: FrictionEstimate,
 }
@@ -376,8 +376,8 @@ impl ReportRecord {
             Some(FrictionRecord {
                 rows: [rows[pass.samples.start], rows[pass.samples.end - 1]],
                 used: pass.used_friction,
-                is_there: found.is_there(),
-                is_told_apart: found.is_told_apart(),
+                is_significant: found.is_significant(),
+                is_identified: found.is_identified(),
                 found,
             })
         };

@@ -136,9 +136,9 @@ impl Reconstructed {
     /// What is not there because the rod is not uniform or not straight at rest, in words; none for one that is.
     pub fn missing(&self) -> Option<&'static str> {
         self.rod.uniform().is_none().then_some(
-            "not computed for a rod that is not uniform or not straight at rest: corrections and standard deviations of errors that all \
-             samples share (bias, drift, gain, clamp angle), the check by the physics, what explains a recording that does not fit, and, in \
-             noise, whether BB turns into BA within a stretch of two contacts, whose points may then be off by more than they say",
+            "not computed for a rod that is not uniform or not straight at rest: corrections and standard deviations of systematic \
+             errors (bias, drift, gain, clamp angle), the check by the physics, likely causes of a misfit, and, in noise, the change from BB \
+             to BA within a stretch of two contacts, where the errors of points may exceed their standard deviations",
         )
     }
 
@@ -160,7 +160,7 @@ impl Reconstructed {
         // what does not fit is there with nothing but a bias, too
         if matches!(self.explanations.first(), Some((Explanation::Tare, share)) if *share > UNEXPLAINED) {
             return Some(
-                "no likely cause among those that are tried (signs, axes, units, single errors of rod, sensor, clamp and stage): look for \
+                "none of the tested causes is likely (signs, axes, units, single errors of rod, sensor, clamp and stage): look for \
                  friction, a rod that tapers or is bent at rest, a loose clamp, an object that moves, or two mistakes at once"
                     .to_owned(),
             );
@@ -169,8 +169,8 @@ impl Reconstructed {
         let told: Vec<String> = told.map(|(what, share)| format!("{what}: {:.0} %", 100.0 * share)).collect();
         (!told.is_empty()).then(|| {
             format!(
-                "likely causes, if it is one of those that are tried: {}; not tried: a rod that tapers or is bent at rest (`tip_diameter`, \
-                 `natural_curvature` of [rod]), and two mistakes at once; correct what is wrong, and reconstruct again",
+                "likely causes among the tested ones: {}; not tested: a rod that tapers or is bent at rest (`tip_diameter`, \
+                 `natural_curvature` of [rod]), and two mistakes at once; correct the cause, and reconstruct again",
                 told.join("; ")
             )
         })

@@ -3,6 +3,7 @@
 use super::comparison::{Comparison, Transition};
 use super::report::Answered;
 use super::result::Reconstructed;
+use crate::clamp_columns::ClampColumns;
 use crate::table::{Table, counted};
 use std::fmt::Write;
 use vibrissa::reconstruct::score::Deviation;
@@ -29,8 +30,8 @@ impl Reconstructed {
         let Answered { single, single_answered, several, first_answered, second_answered } = Answered::of(self);
         writeln!(
             text,
-            "points: {single_answered} of {single} samples with one contact; of {several} with several the first of \
-             {first_answered}, the second of {second_answered}"
+            "contact points: in {single_answered} of {single} samples with one contact; of {several} samples with several contacts, the \
+             first in {first_answered}, the second in {second_answered}"
         )?;
         let (kinks, gaps) = (self.found.kinks.len(), self.contour.gaps.len());
         writeln!(text, "{}, {}", counted(kinks, "kink"), counted(gaps, "gap"))?;
@@ -45,7 +46,7 @@ impl Reconstructed {
         self.tell_fit(text)?;
         text.push_str(&self.run_table().to_string());
         match &self.comparison {
-            Some(comparison) => comparison.tell(text),
+            Some(comparison) => comparison.tell(self.clamp_columns(), text),
             None => Ok(()),
         }
     }
@@ -55,14 +56,14 @@ impl Reconstructed {
         for (number, pass) in self.found.passes.iter().enumerate() {
             let Some(found) = pass.friction.filter(|_| pass.used_friction != 0.0) else { continue };
             let of = if self.found.passes.len() > 1 { format!(" of pass {}", number + 1) } else { String::new() };
-            let way = if found.mu < 0.0 { "pushed on over" } else { "drawn back over" };
-            let told = match (found.is_there(), found.is_told_apart()) {
+            let way = if found.mu < 0.0 { "pushed forward over" } else { "drawn back over" };
+            let told = match (found.is_significant(), found.is_identified()) {
                 (true, true) => "",
-                (true, false) => "; errors that all samples share would explain a part of it",
-                (false, _) => "; the scan is explained as well without",
+                (true, false) => "; systematic errors may explain a part of it",
+                (false, _) => "; not significant",
             };
-            let others = pass.calibration.as_ref().map_or_else(Vec::new, |told| told.confused(Source::Friction));
-            let others = hardly_told(found.mu, found.sigma, &others);
+            let others = pass.calibration.as_ref().map_or_else(Vec::new, |told| told.confounders(Source::Friction));
+            let others = confounders_text(found.mu, found.sigma, &others);
             writeln!(
                 text,
                 "friction{of}: mu = {:.4} +- {:.1e} (by the noise alone {:.1e}), the rod {way} its contacts{told}{others}",
@@ -101,11 +102,11 @@ impl Reconstructed {
         let mut systematic: Vec<f64> = touches.map(|touch| touch.sigma_systematic()).collect();
         systematic.sort_unstable_by(f64::total_cmp);
         if let Some(median) = systematic.get(systematic.len() / 2) {
-            writeln!(text, "error that all points share: {:.1e} mm across the contour in the median", 1e3 * median)?;
+            writeln!(text, "systematic error of the points: {:.1e} mm across the contour, median", 1e3 * median)?;
         }
         let ties = calibration.ties.iter().map(|(a, b, _)| format!("{a} and {b}")).collect::<Vec<_>>();
         if calibration.is_applied() && !ties.is_empty() {
-            writeln!(text, "not told apart by this scan: {}", ties.join("; "))?;
+            writeln!(text, "not separated by this scan: {}", ties.join("; "))?;
         }
         Ok(())
     }
@@ -128,38 +129,41 @@ impl Reconstructed {
         self.explained().map_or(Ok(()), |causes| writeln!(text, "physics: {causes}"))
     }
 
+    /// The coordinates of the clamp that change along the recording.
+    fn clamp_columns(&self) -> ClampColumns {
+        ClampColumns::of(self.samples.iter().map(|sample| sample.pose), self.rod.length())
+    }
+
     fn run_table(&self) -> Table {
-        let mut table = Table::new(["label", "samples", "x0 mm", "y0 mm", "phi0 deg", "median probability"]);
+        let clamp = self.clamp_columns();
+        let columns = ["label", "samples"].into_iter().chain(clamp.names()).chain(["median probability"]);
+        let mut table = Table::new(columns);
         for (run, label) in self.runs() {
             let pose = self.samples[run.start].pose;
             let mut sure: Vec<f64> = self.found.readings[run.clone()].iter().map(|r| r.probability).collect();
             sure.sort_unstable_by(f64::total_cmp);
-            table.row([
-                label.to_string(),
-                run.len().to_string(),
-                format!("{:.4}", 1e3 * pose.x),
-                format!("{:.4}", 1e3 * pose.y),
-                format!("{:.4}", pose.phi.to_degrees()),
-                sure.get(sure.len() / 2).map_or_else(|| "-".into(), |sure| format!("{sure:.3}")),
-            ]);
+            let median = sure.get(sure.len() / 2).map_or_else(|| "-".into(), |sure| format!("{sure:.3}"));
+            table.row(
+                [label.to_string(), run.len().to_string()].into_iter().chain(clamp.cells(pose, 4)).chain([median]),
+            );
         }
         table
     }
 }
 
-/// From which sources friction is hardly told, in words: the parts of its variance that they are the reason of. Empty where it is well known.
-pub fn hardly_told(mu: f64, sigma: f64, others: &[(Source, f64)]) -> String {
+/// The sources that are poorly separated from friction, in words, with their shares of its variance. Empty where friction is well known.
+pub fn confounders_text(mu: f64, sigma: f64, others: &[(Source, f64)]) -> String {
     let named: Vec<String> =
         others.iter().map(|(source, part)| format!("{source} ({:.0} % of its variance)", 100.0 * part)).collect();
     if named.is_empty() || sigma < WELL_KNOWN * mu.abs() {
         String::new()
     } else {
-        format!("; hardly told from {}", named.join(", "))
+        format!("; poorly separated from {}", named.join(", "))
     }
 }
 
 impl Comparison {
-    fn tell(&self, text: &mut String) -> std::fmt::Result {
+    fn tell(&self, clamp: ClampColumns, text: &mut String) -> std::fmt::Result {
         let Self { scene, confusion, either, off_path, kinks, .. } = self;
         writeln!(text, "\nagainst {}: {} samples compared, {off_path} off its path", scene.name, confusion.total())?;
         if let Some(stop) = &self.stop {
@@ -189,16 +193,11 @@ impl Comparison {
             kinks.found - real.min(kinks.found)
         )?;
         let unit = if scene.path.turns_only() { "error mrad" } else { "error mm" };
-        let mut table = Table::new(["transition", "kind", "x0 mm", "y0 mm", "phi0 deg", unit]);
+        let mut table = Table::new(["transition", "kind"].into_iter().chain(clamp.names()).chain([unit]));
         for Transition { from, to, kind, pose, error } in &self.transitions {
-            table.row([
-                format!("{from} -> {to}"),
-                kind.to_string(),
-                format!("{:.4}", 1e3 * pose.x),
-                format!("{:.4}", 1e3 * pose.y),
-                format!("{:.4}", pose.phi.to_degrees()),
-                error.map_or_else(|| "-".into(), |error| format!("{:.4}", 1e3 * error)),
-            ]);
+            let error = error.map_or_else(|| "-".into(), |error| format!("{:.4}", 1e3 * error));
+            let transition = [format!("{from} -> {to}"), kind.to_string()];
+            table.row(transition.into_iter().chain(clamp.cells(*pose, 4)).chain([error]));
         }
         write!(text, "{table}")
     }

@@ -11,7 +11,7 @@ pub(super) const EXPECTED: &str = "x0, y0 (m), phi0 (rad), f0x, f0y (N), m0z (N 
 const PART: &str = "; `vibrissa forces` takes a part of the reactions";
 
 /// What else to do where there are no poses.
-const STAGE: &str = "; of raw values or wrenches, --stage tells the poses";
+const STAGE: &str = "; for raw values or wrenches, --stage gives the poses";
 
 pub(super) const POSE: [Role; 3] = [Role::X0, Role::Y0, Role::Phi0];
 pub(super) const REACTIONS: [Role; 3] = [Role::F0x, Role::F0y, Role::M0z];

@@ -40,7 +40,7 @@ pub enum RowProblem {
         value: f64,
     },
     /// Flags that speak against it.
-    #[error("the quality is {quality}, expected values that the sensor stands for")]
+    #[error("the sensor flagged the sample: {quality}, expected a sample without flags")]
     Flagged {
         /// The flags.
         quality: Quality,

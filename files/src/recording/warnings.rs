@@ -14,7 +14,7 @@ impl Recording {
         let file = self.file.display();
         let mut warnings = Vec::new();
         if !self.ignored.is_empty() {
-            warnings.push(format!("{file}: columns not looked at: {}", self.ignored.join(", ")));
+            warnings.push(format!("{file}: columns not used: {}", self.ignored.join(", ")));
         }
         let mut kinds: Vec<(Kind, Vec<&RowFault>)> = Vec::new();
         for fault in self.faults() {
@@ -36,7 +36,7 @@ impl Recording {
         if !self.late.is_empty() {
             let (count, rows) = (self.late.len(), self.rows.len());
             let at = Place::several(&self.late, MOST_LINES);
-            warnings.push(format!("{file}: the time does not grow in {count} of {rows} rows, {at}"));
+            warnings.push(format!("{file}: the time does not increase in {count} of {rows} rows, {at}"));
         }
         if self.cut {
             warnings.push(format!("{file}: the end of the recording is missing"));

@@ -1,9 +1,11 @@
 //! Simulated recordings: a scene, swept at a speed, felt by a sensor.
 //!
-//! `ticks` is the sensor's samples one after the other; here is what a recording is of, and how it is written.
+//! `ticks` is the sensor's samples one after the other, `speed` how a speed is written; here is what a recording is of, and how it is written.
 
+mod speed;
 mod ticks;
 
+pub use speed::Speed;
 pub use ticks::{Tick, Ticks};
 
 use crate::output::csv_writer;
@@ -69,6 +71,14 @@ pub enum SimulationError {
         value: f64,
         /// Its unit.
         unit: &'static str,
+    },
+    /// A speed in the unit of another motion.
+    #[error("--speed is {speed}, expected {expected}")]
+    SpeedUnit {
+        /// The speed as written.
+        speed: String,
+        /// What is expected, and why.
+        expected: &'static str,
     },
     /// More samples than a sweep may report.
     #[error(

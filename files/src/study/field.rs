@@ -52,14 +52,10 @@ impl SceneField {
                     array.get_mut(*n).ok_or_else(missing)?
                 }
                 (NamePart::Name(name), found) => {
-                    return Err(format!("`{name}` is asked of a value of type {}, expected a table", found.type_str()));
+                    return Err(format!("`{name}` follows a value of type {}, expected a table", found.type_str()));
                 }
                 (NamePart::Number(n), found) => {
-                    return Err(format!(
-                        "[{}] is asked of a value of type {}, expected a list",
-                        n + 1,
-                        found.type_str()
-                    ));
+                    return Err(format!("[{}] follows a value of type {}, expected a list", n + 1, found.type_str()));
                 }
             };
         }
@@ -128,8 +124,8 @@ mod tests {
             ("sweep.from[1]", "the scene has no `sweep` there, only `object`, `rod`"),
             ("objekt[1].angle", "the scene has no `objekt` there, only `object`, `rod`; did you mean `object`?"),
             ("object[2].angle", "the scene has 1, expected a number from 1 to 1"),
-            ("object.angle", "`angle` is asked of a value of type array, expected a table"),
-            ("rod[1]", "[1] is asked of a value of type table, expected a list"),
+            ("object.angle", "`angle` follows a value of type array, expected a table"),
+            ("rod[1]", "[1] follows a value of type table, expected a list"),
             ("object[1].piece[1].shape", "the scene has a value of type string there, expected a number"),
             ("object[1].position", "the scene has a value of type array there, expected a number"),
         ] {

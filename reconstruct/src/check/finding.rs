@@ -265,14 +265,14 @@ impl Finding {
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::NoContact => f.write_str("the rod touches nothing: there is nothing to check"),
+            Self::NoContact => f.write_str("the rod has no contact in this recording, so that the physics cannot be checked"),
             Self::NoLine => f.write_str(
-                "m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) follows no straight line: too few tangential contacts, too \
-                 much noise, or angles in another unit than radians",
+                "m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) is not a straight line: too few tangential contacts, too \
+                 much noise, or angles that are not in radians",
             ),
             Self::Sign => f.write_str(
-                "the slope of m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) is negative: f0x and f0y have the wrong sign, as \
-                 loads on the sensor have instead of reactions of the clamp, or phi0 points the other way",
+                "the slope of m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) is negative: f0x and f0y have the wrong sign (loads \
+                 on the sensor instead of reactions of the clamp), or phi0 points the other way",
             ),
             Self::Units { ratio, power } => {
                 let what = UNITS.iter().find(|unit| unit.0 == power).map_or("units are mixed up", |unit| unit.1);
@@ -284,17 +284,17 @@ impl fmt::Display for Finding {
             }
             Self::Stiffness { given, suggested, sigma } => write!(
                 f,
-                "the bending stiffness is {given:.4e} N m^2, the recording suggests {suggested:.4e} +- {sigma:.1e} N m^2"
+                "the bending stiffness is {given:.4e} N m^2, the recording gives {suggested:.4e} +- {sigma:.1e} N m^2"
             ),
             Self::Intercept { part, force } => write!(
                 f,
-                "m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) misses the origin by {:.1} % of the largest m0z^2: forces not \
-                 tared ({force:.3e} N too much), or moments about another point than the clamp",
+                "m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) misses the origin by {:.1} % of the largest m0z^2: the forces \
+                 are not tared ({force:.3e} N too much), or the moments are about another point than the clamp",
                 100.0 * part
             ),
             Self::MomentOffset { moment, sigma, part } => write!(
                 f,
-                "m0z seems to be too large by {moment:.3e} +- {sigma:.1e} N m, {:.1} % of its largest: not tared, or about \
+                "m0z is too large by {moment:.3e} +- {sigma:.1e} N m, {:.1} % of its largest value: it is not tared, or is about \
                  another point than the clamp",
                 100.0 * part
             ),
@@ -307,35 +307,35 @@ impl fmt::Display for Finding {
             ),
             Self::Friction { mu, sigma, gain } => write!(
                 f,
-                "the contacts seem to rub: with friction mu = {:.4} +- {sigma:.1e} the scan is likelier by a factor of 10^{:.0}; K over 2 |F| \
-                 along tangential contacts is {:.4} in place of 0; reconstruct with friction (`--friction estimate`)",
+                "the contacts have friction: a coefficient mu = {:.4} +- {sigma:.1e} makes the recording more likely by a factor of 10^{:.0}; K over 2 |F| \
+                 along tangential contacts is {:.4}, without friction 0; reconstruct with friction (`--friction estimate`)",
                 mu.abs(),
                 (gain / std::f64::consts::LN_10).min(999.0),
                 mu / mu.hypot(1.0)
             ),
             Self::FrictionGiven { given, mu, sigma, deviation } => write!(
                 f,
-                "friction with mu = {:.4} was given, but the scan tells mu = {:.4} +- {sigma:.1e}{}, {deviation:.0} standard deviations from that: give \
-                 this one, or let it be estimated",
+                "the given coefficient of friction is {:.4}, the recording gives {:.4} +- {sigma:.1e}{}, {deviation:.0} standard deviations away: give \
+                 this coefficient, or let it be estimated",
                 given.abs(),
                 mu.abs(),
-                if mu * given < 0.0 { " the other way" } else { "" }
+                if mu * given < 0.0 { " in the other direction" } else { "" }
             ),
             Self::FrictionChanges { mu, scatter, spread } => write!(
                 f,
-                "K over 2 |F| along tangential contacts varies by {scatter:.1} times its noise, as if mu = {:.4} changed by {spread:.1e}: friction \
-                 that changes along the scan, contacts that stick, or another error",
+                "K over 2 |F| along tangential contacts varies by {scatter:.1} times its noise, like a change of mu = {:.4} by {spread:.1e}: the \
+                 friction changes along the scan, contacts stick, or there is another error",
                 mu.abs()
             ),
             Self::FrictionAgainst { mu, share } => write!(
                 f,
-                "along {:.0} % of the tangential contacts the rod slides the other way than the friction found there (mu = {:.4}) lets it: this is \
-                 another error than friction, or friction that changes its direction",
+                "along {:.0} % of the tangential contacts the estimated friction (mu = {:.4}) acts along the sliding, not against it: there is \
+                 another error than friction, or the friction changes its direction",
                 100.0 * share,
                 mu.abs()
             ),
             Self::NoFreeStretch => f.write_str(
-                "no stretch of the scan is of a free rod, so that the bias of the sensor is not known: begin and end scans without \
+                "the rod is never free in this recording, so that the bias of the sensor is unknown: begin and end scans without \
                  contact, or state the bias",
             ),
             Self::Budget { of, value, sigma, budget } => {
@@ -343,20 +343,20 @@ impl fmt::Display for Finding {
                 let space = if unit.is_empty() { "" } else { " " };
                 write!(
                     f,
-                    "the scan asks for {of} = {value:.3e} +- {sigma:.1e}{space}{unit}, beyond three times the {budget:.1e}{space}{unit} \
-                     that it may have: correct it, or state a larger error"
+                    "the estimate of the {of} is {value:.3e} +- {sigma:.1e}{space}{unit}, more than three times its budget of \
+                     {budget:.1e}{space}{unit}: correct the error, or state a larger budget"
                 )
             }
             Self::Misfit { criterion, part } => write!(
                 f,
-                "after all corrections {:.0} % of what the budget explains of the {} is left: friction, taper, hysteresis or another \
-                 error that is not in the budget; the contact points may be wrong by more than they say",
+                "after all corrections the residual is {:.0} % of what the budget explains of the {}: friction, taper, hysteresis or another \
+                 error that is not in the budget; the contact points may be wrong by more than their standard deviations",
                 100.0 * part,
                 if criterion == Basis::Criterion { "phase criterion K".to_owned() } else { format!("{criterion} criterion") }
             ),
             Self::Unanswered { share } => write!(
                 f,
-                "{:.0} % of the samples with a single contact have no contact point: see the reasons of the samples",
+                "{:.0} % of the samples with a single contact have no contact point; the result gives the reason of each",
                 100.0 * share
             ),
             Self::Coarse { channel, step } => write!(
@@ -366,48 +366,48 @@ impl fmt::Display for Finding {
             ),
             Self::Lost { share } => write!(
                 f,
-                "{:.0} % of the samples in contact have no contact point, as where a sign, an axis, a unit or the rod is wrong",
+                "{:.0} % of the samples in contact have no contact point: a sign, an axis, a unit or the rod may be wrong",
                 100.0 * share
             ),
             Self::KinksWithin { count, from } => write!(
                 f,
                 "{} within phase B, the first before sample {from}: there the contact passes to another piece of the contour, or a second \
-                 contact comes or goes. Noise hides which. With a second contact the points up to the next change are off by more than their \
-                 standard deviations say: scan more slowly, or with less noise",
+                 contact begins or ends; the noise is too large to decide. With a second contact the errors of the points up to the next change \
+                 exceed their standard deviations: scan more slowly, or with less noise",
                 if count == 1 { "a kink".to_owned() } else { format!("{count} kinks") }
             ),
             Self::Frozen { share, from } => write!(
                 f,
-                "{:.1} % of the samples, from sample {from} on, are left out: a reaction stays exactly the same for 40 samples or more; look \
-                 for a lost connection, or for loads beyond the range of the sensor",
+                "{:.1} % of the samples, from sample {from} on, are left out: a reaction stays exactly the same for 40 samples or more; check \
+                 the connection, and that the loads are within the range of the sensor",
                 100.0 * share
             ),
             Self::Uncertain { share, label, from, to } => write!(
                 f,
-                "about {:.0} % of the labels may be wrong (mean of 1 - probability), the least sure {label} in samples {from} to {}: \
+                "about {:.0} % of the labels may be wrong (mean of 1 - probability), the least certain {label} in samples {from} to {}: \
                  scan more slowly, or with less noise",
                 100.0 * share,
                 to - 1
             ),
             Self::Undetermined { share, label, from, to } => write!(
                 f,
-                "about {:.0} % of the labels may be wrong (mean of 1 - probability), the least sure {label} in samples {from} to {}: the \
-                 forces there hardly determine where the rod touches; scan closer to the object, or with less noise",
+                "about {:.0} % of the labels may be wrong (mean of 1 - probability), the least certain {label} in samples {from} to {}: the \
+                 forces there do not determine the contact points well; scan closer to the object, or with less noise",
                 100.0 * share,
                 to - 1
             ),
             Self::Angle { largest } => {
-                write!(f, "phi0 is up to {largest:.4} rad in size: is it in degrees? Expected radians")
+                write!(f, "phi0 reaches {largest:.4} rad: is it in degrees? Expected radians")
             }
             Self::Way { lengths } => {
-                write!(f, "the clamp goes {lengths:.3e} lengths of the rod: are x0, y0 in another unit? Expected m")
+                write!(f, "the clamp moves by {lengths:.3e} lengths of the rod: are x0, y0 in another unit? Expected m")
             }
             Self::Unexplained { shares: Shares { beyond_tip, pulling, no_moment_zero, .. }, tangential } => write!(
                 f,
-                "of the {} no single contact on this rod explains {:.0} %: {:.0} % would be beyond the tip, {:.0} % \
-                 would have to pull, in {:.0} % the moment vanishes nowhere",
-                if tangential { "tangential contacts" } else { "scan in contact" },
+                "no single contact on this rod explains {:.0} % of the {}: in {:.0} % it would be beyond the tip, in {:.0} % \
+                 it would have to pull, in {:.0} % the moment vanishes nowhere",
                 100.0 * (beyond_tip + pulling + no_moment_zero),
+                if tangential { "tangential contacts" } else { "scan in contact" },
                 100.0 * beyond_tip,
                 100.0 * pulling,
                 100.0 * no_moment_zero

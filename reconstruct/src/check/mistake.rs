@@ -140,8 +140,8 @@ impl fmt::Display for Mistake {
                 (false, _) => f.write_str("moments are in N mm (or mN m)"),
                 (true, true) => f.write_str("forces are in mN and moments in N mm (or mN m)"),
             },
-            Self::Gains(1.0, moment) => write!(f, "m0z is {moment:.3} times what it should be"),
-            Self::Gains(force, _) => write!(f, "f0x and f0y are {force:.3} times what they should be"),
+            Self::Gains(1.0, moment) => write!(f, "m0z is {moment:.3} times the true value"),
+            Self::Gains(force, _) => write!(f, "f0x and f0y are {force:.3} times the true value"),
             Self::Stiffness(value) => write!(f, "the bending stiffness is {value:.4e} N m^2"),
         }
     }

@@ -67,16 +67,16 @@ const AGAIN: usize = 200;
 #[non_exhaustive]
 pub enum FitError {
     /// The local answer has no contact point.
-    #[error("no contact point is known from which a fit could start")]
+    #[error("no contact point is known, so that the fit has no start")]
     NoContacts,
     /// With friction the states of a rod depend on the whole way of the clamp.
     #[error("recordings with friction cannot be fitted")]
     Friction,
     /// Each sample tells its contact point more exactly than the points of a spline can.
-    #[error("without noise the answers to the samples are more exact than a fit")]
+    #[error("without noise the contact points of the single samples are more accurate than a fit")]
     Exact,
     /// The contact points give no curve that the fit could change.
-    #[error("the contact points are in no order that gives a contour to start from")]
+    #[error("the contact points have no order along a contour, so that the fit has no start")]
     NoStart,
 }
 

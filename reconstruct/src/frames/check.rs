@@ -69,11 +69,13 @@ pub(super) fn check(length: f64, frame: &Frame, sigma: f64) -> Result<(), FrameF
     if !(LENGTHS.0..=LENGTHS.1).contains(&ratio) {
         let back = turns_back(0.0).filter(|turns| *turns).count() as f64;
         let hint = match ratio {
-            _ if back > NO_CURVE * chords.len() as f64 => "they turn back all along: are two rods mixed?".to_owned(),
+            _ if back > NO_CURVE * chords.len() as f64 => {
+                "their order turns back everywhere: are two rods mixed?".to_owned()
+            }
             300.0..3000.0 => "are the points in mm?".to_owned(),
             3000.0.. => "are the points in pixels, without a scale?".to_owned(),
             3e-4..3e-3 => "is the rod's length in mm?".to_owned(),
-            _ => "is the scale that of the image, and the rod that of the film?".to_owned(),
+            _ => "are the scale of the image and the rod right?".to_owned(),
         };
         return Err(FrameFault::Length { measured, length, hint });
     }

@@ -54,12 +54,12 @@ pub enum FrameFault {
     },
     /// The points in reverse order are explained, as they are they are not.
     #[error(
-        "the points seem to run from the tip to the base, or to be mirrored: in reverse order they are explained, expected the base first, and y that counts up (is it an image?)"
+        "the points fit the rod in reverse order only: they run from the tip to the base, or are mirrored; expected the base first, and y that counts up (is it an image?)"
     )]
     Reversed,
     /// The rod looks shorter than it is, by more than is allowed.
     #[error(
-        "between base and tip are {shortening:.1} % less than the length of the rod, expected at most {most:.1} %: the rod is bent out of the plane of the image, or an end was not seen"
+        "the rod looks {shortening:.1} % too short, expected at most {most:.1} %: it is bent out of the plane of the image, or an end is hidden"
     )]
     OutOfPlane {
         /// By how much, %.
@@ -68,6 +68,6 @@ pub enum FrameFault {
         most: f64,
     },
     /// No shape was found.
-    #[error("no shape of the rod was found that is near the observations: is the rod that of the film?")]
+    #[error("no shape of the rod was found near the observations: is this the rod of the film?")]
     NoShape,
 }

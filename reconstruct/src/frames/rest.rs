@@ -38,7 +38,7 @@ pub enum RestError {
     },
     /// No curvature explains the frames.
     #[error(
-        "no curvature at rest was found that is near the frames: is the rod that of the film, and free in all of them?"
+        "no curvature at rest was found that fits the frames: is this the rod of the film, and is it free in all frames?"
     )]
     NoShape,
 }

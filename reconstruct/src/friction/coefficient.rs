@@ -102,14 +102,14 @@ impl FrictionAlone {
 }
 
 impl FrictionEstimate {
-    /// Whether there is friction: the coefficient differs from 0, and neither noise nor errors that all samples share explain the pass as
-    /// well.
-    pub fn is_there(&self) -> bool {
+    /// Whether the friction is significant: the coefficient exceeds four times [`sigma_of_noise`](Self::sigma_of_noise), and the likelihood ratio
+    /// is very strong evidence against a pass without friction.
+    pub fn is_significant(&self) -> bool {
         self.mu.abs() > SIGMAS * self.sigma_of_noise && self.gain > DECISIVE
     }
 
-    /// Whether the pass tells friction from the errors that all samples share: the coefficient exceeds its standard deviation with these.
-    pub fn is_told_apart(&self) -> bool {
+    /// Whether the systematic errors do not explain the friction of the pass: the coefficient exceeds four times [`sigma`](Self::sigma).
+    pub fn is_identified(&self) -> bool {
         self.mu.abs() > SIGMAS * self.sigma && self.gain > DECISIVE
     }
 }

@@ -112,10 +112,10 @@ impl Reconstruction {
 fn of_friction(pass: &Pass) -> Option<Finding> {
     let FrictionEstimate { mu, sigma, scatter, spread, gain, against, alone, .. } = pass.friction?;
     if pass.used_friction == 0.0 {
-        return pass.friction.filter(FrictionEstimate::is_there).map(|_| Finding::Friction { mu, sigma, gain });
+        return pass.friction.filter(FrictionEstimate::is_significant).map(|_| Finding::Friction { mu, sigma, gain });
     }
     // the direction of what is not there says nothing
-    if against > AGAINST && pass.friction.is_some_and(|found| found.is_there()) {
+    if against > AGAINST && pass.friction.is_some_and(|found| found.is_significant()) {
         return Some(Finding::FrictionAgainst { mu, share: against });
     }
     // that it seems to vary is a consequence

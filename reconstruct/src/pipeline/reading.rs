@@ -28,10 +28,10 @@ pub enum Reason {
         z: f64,
     },
     /// How far errors that all samples share displace the point is not known at any place of this run.
-    #[error("how far errors that all samples share displace the point is not known here")]
+    #[error("the systematic error of the point is not known here")]
     Unshared,
     /// The point is too uncertain.
-    #[error("the point is uncertain by {sigma:.1e} m")]
+    #[error("the standard deviation of the point is {sigma:.1e} m, too large")]
     TooNoisy {
         /// Standard deviation across the contour, m; along it, if that is the one that is too large.
         sigma: f64,

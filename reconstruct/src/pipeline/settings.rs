@@ -61,7 +61,7 @@ pub enum ReconstructError {
         value: f64,
     },
     /// A value or standard deviation of a calibration that is not possible.
-    #[error("what is known of the {of} is {value}, expected a finite number and a standard deviation, 0 or larger")]
+    #[error("the known value of the {of} is {value}, expected a finite number and a standard deviation, 0 or larger")]
     Known {
         /// Of which source.
         of: Source,
@@ -76,8 +76,7 @@ pub enum ReconstructError {
     },
     /// Errors that all samples share are to be taken off a scan of a rod of which they are not known.
     #[error(
-        "the errors that all samples share are estimated for uniform rods alone, expected `known` empty and the budget none, or \
-         `Budget::NONE`"
+        "systematic errors are estimated for uniform rods only, expected `known` empty and the budget none, or `Budget::NONE`"
     )]
     NotUniform,
     /// A setting that is not possible.

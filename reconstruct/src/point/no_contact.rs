@@ -17,7 +17,7 @@ pub enum NoContact<T: Number = f64> {
     #[error("the moment vanishes at {} m, beyond the tip", .0.s)]
     BeyondTip(Touch<T>),
     /// At the point given the rod would leave the object instead of pressing on it: the contact would have to pull.
-    #[error("the contact at {} m would pull at the rod", .0.s)]
+    #[error("the contact at {} m would pull the rod", .0.s)]
     Pulling(Touch<T>),
     /// The pose, the reactions or the covariance are not finite.
     #[error("pose and reactions are not finite numbers")]

@@ -19,7 +19,7 @@ pub enum Fault {
     #[error("a number is not finite")]
     NotFinite,
     /// A reaction stands out of those of the neighbouring samples by far more than the noise.
-    #[error("a spike: a reaction stands out of its neighbours by more than 10 standard deviations")]
+    #[error("a spike: a reaction differs from its neighbours by more than 10 standard deviations")]
     Spike,
     /// A reaction stays exactly the same, although it is noisy elsewhere: the sensor is lost or at the end of its range.
     #[error("a reaction stays exactly the same for 40 samples or more: the sensor is lost or at the end of its range")]

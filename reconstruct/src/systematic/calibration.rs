@@ -135,12 +135,12 @@ impl Calibration {
         Rod::new(given.length() * (1.0 + length), given.bending_stiffness() * (1.0 + stiffness)).unwrap_or(*given)
     }
 
-    /// The sources from which the scan hardly tells this one: by what part the variance of its estimate would be smaller if they were known
+    /// The sources that the scan separates poorly from this one: the part by which the variance of its estimate would be smaller if they were known
     /// exactly, one by one, a tenth at least; the largest first. Empty where the source was not estimated.
-    pub fn confused(&self, source: Source) -> Vec<(Source, f64)> {
+    pub fn confounders(&self, source: Source) -> Vec<(Source, f64)> {
         let of = self.sources.iter().position(|estimate| estimate.source == source);
         of.filter(|of| *of < self.covariance.nrows())
-            .map_or_else(Vec::new, |of| confused_sources(&self.sources, &self.covariance, of))
+            .map_or_else(Vec::new, |of| confounders_of(&self.sources, &self.covariance, of))
     }
 
     /// The estimate of one source.
@@ -149,9 +149,9 @@ impl Calibration {
     }
 }
 
-/// The sources from which one, by its number, is hardly told: by what part its variance would be smaller if they were known exactly, one by
+/// The sources that are poorly separated from one, by its number: the part by which its variance would be smaller if they were known exactly, one by
 /// one, a tenth at least; the largest first.
-pub(super) fn confused_sources(sources: &[SourceEstimate], covariance: &DMatrix<f64>, of: usize) -> Vec<(Source, f64)> {
+pub(super) fn confounders_of(sources: &[SourceEstimate], covariance: &DMatrix<f64>, of: usize) -> Vec<(Source, f64)> {
     let part = |k: usize| covariance[(of, k)].powi(2) / (covariance[(of, of)] * covariance[(k, k)]);
     let others = (0..covariance.nrows()).filter(|k| *k != of).map(|k| (sources[k].source, part(k)));
     let mut found: Vec<(Source, f64)> = others.filter(|other| other.1 > CONFUSED).collect();

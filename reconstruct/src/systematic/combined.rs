@@ -1,6 +1,6 @@
 //! What several scans say of the errors that stay the same from scan to scan.
 
-use super::calibration::{Calibration, SourceEstimate, confused_sources, ties};
+use super::calibration::{Calibration, SourceEstimate, confounders_of, ties};
 use super::known::Known;
 use super::source::Source;
 use crate::numeric::chi_squared::wilson_hilferty;
@@ -149,9 +149,9 @@ impl Combined {
         self.freedom > 0 && self.chi_squared > wilson_hilferty(self.freedom, QUANTILE)
     }
 
-    /// The sources from which the scans hardly tell one of [`Self::sources`], by its number, as [`Calibration::confused`] of one scan.
-    pub fn confused(&self, of: usize) -> Vec<(Source, f64)> {
-        if of < self.sources.len() { confused_sources(&self.sources, &self.covariance, of) } else { Vec::new() }
+    /// The sources that the scans separate poorly from one of [`Self::sources`], by its number, as [`Calibration::confounders`] of one scan.
+    pub fn confounders(&self, of: usize) -> Vec<(Source, f64)> {
+        if of < self.sources.len() { confounders_of(&self.sources, &self.covariance, of) } else { Vec::new() }
     }
 
     /// The estimate of one source.
@@ -305,7 +305,7 @@ mod tests {
         for one in [of_angle, of_friction] {
             assert!((one.sigma - sigma / 2_f64.sqrt()).abs() < 1e-3 * sigma, "{one:?}");
         }
-        assert!(both.ties.is_empty() && both.confused(1).is_empty() && !both.contradicts());
+        assert!(both.ties.is_empty() && both.confounders(1).is_empty() && !both.contradicts());
         // another recording has another coefficient, which its two directions, but not one of them, tell
         let four = [pass(0, 1.0, 0.2), pass(0, -1.0, 0.2), pass(1, -1.0, 0.4), pass(1, 1.0, 0.4)];
         let two = Combined::of(&four).unwrap();
@@ -313,7 +313,7 @@ mod tests {
         let apart = Combined::of(&[pass(0, 1.0, 0.2), pass(1, -1.0, 0.2)]).unwrap();
         assert!(apart.sources.iter().all(|one| one.sigma > 0.5), "{apart:?}");
         assert!(apart.ties.len() == 3 && apart.ties.iter().all(|tie| tie.1 == Source::Friction), "{apart:?}");
-        let (other, part) = apart.confused(1)[0];
+        let (other, part) = apart.confounders(1)[0];
         assert!(part > 0.99 && [Source::ClampAngle, Source::Friction].contains(&other), "{apart:?}");
         // friction is of the scans, not of the rod
         assert_eq!(both.known(&Rod::new(1.0, 1.0).unwrap()).1.of(Source::Friction), None);

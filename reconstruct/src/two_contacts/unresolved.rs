@@ -13,7 +13,7 @@ pub enum Unresolved {
         least: usize,
     },
     /// The shapes of the rod along the scan have no envelope that touches the rod.
-    #[error("the rod's arcs touch no envelope")]
+    #[error("the shapes of the rod have no envelope")]
     NoTouch,
     /// The force of the second contact is within its noise of zero, so that its place is not defined.
     #[error("the force of the second contact is within its noise of zero")]
@@ -32,7 +32,7 @@ pub enum Unresolved {
     #[error("one of the contacts may stick, so that its friction is not known")]
     Sticks,
     /// The standard deviation of the position exceeds the limit.
-    #[error("the position is uncertain by {sigma} lengths of the rod")]
+    #[error("the standard deviation of the position is {sigma} lengths of the rod, too large")]
     TooNoisy {
         /// Standard deviation across the contour or, where that decided, along it, in lengths of the rod.
         sigma: f64,

@@ -62,7 +62,7 @@ fn exact_samples_of_any_coefficient_and_either_direction() {
         assert!(right(&states, &found) > 0.999, "{mu}: {}", right(&states, &found));
         let (off, none) = off(&states, &found);
         assert!(none < 2e-3 && off.iter().all(|(off, _)| *off < 1e-10), "{mu}: {none} without");
-        assert!(estimate(&found).is_there() == (mu != 0.0), "{:?}", estimate(&found));
+        assert!(estimate(&found).is_significant() == (mu != 0.0), "{:?}", estimate(&found));
     }
 }
 
@@ -89,10 +89,10 @@ fn the_coefficient_is_found_in_noise_as_well_as_stated() {
             assert!(off[off.len() / 2].0 < 1e-4, "{mu}: {}", off[off.len() / 2].0);
             // errors of an ordinary laboratory explain friction of 0.02, not of 0.1
             if budget.is_none() {
-                assert_eq!(friction.is_told_apart(), mu > 0.05, "{friction:?}");
+                assert_eq!(friction.is_identified(), mu > 0.05, "{friction:?}");
                 assert!(friction.sigma > 5e-3, "{friction:?}");
             } else {
-                assert_eq!(friction.is_told_apart(), mu > 0.0, "{friction:?}");
+                assert_eq!(friction.is_identified(), mu > 0.0, "{friction:?}");
             }
         }
     }

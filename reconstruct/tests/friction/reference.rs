@@ -42,7 +42,7 @@ fn labels_points_tangents_forces_and_the_coefficient_are_exact() {
         let pass = &found.passes[0];
         let friction = pass.friction.unwrap();
         assert!((pass.used_friction - MU).abs() < 1e-12 && (friction.mu - MU).abs() < 1e-12, "{friction:?}");
-        assert!(friction.is_there() && friction.is_told_apart() && friction.against == 0.0, "{friction:?}");
+        assert!(friction.is_significant() && friction.is_identified() && friction.against == 0.0, "{friction:?}");
         let (places, tangents, forces, none) = off(&recording, &found);
         assert!(none == 0 && places[0] < 1e-12 && places[1] < 1e-10 && places[2] < 1e-10, "{none} {places:?}");
         assert!(tangents < 1e-10 && forces < 1e-9, "{tangents:e} {forces:e}");

@@ -37,7 +37,7 @@ pub(super) fn sensor(
     let is_scale_missing = looks[k].content == Content::Raw && options.setup.is_none();
     if is_scale_missing && looks[k].report.questions.is_empty() {
         looks[k].report.questions.push(Question {
-            text: "what makes N and N m of these raw values?".to_owned(),
+            text: "which calibration converts these raw values to N and N m?".to_owned(),
             answers: vec![
                 "--setup FILE with a calibration or a matrix in [sensor], and columns in [recording]".to_owned(),
             ],
@@ -155,7 +155,7 @@ fn incomplete(look: &mut Look, setup: &mut SetupText) {
     }
     look.report.fact(
         "components",
-        format!("{} are missing, which a planar rod does not need: the setup says so", missing.join(", ")),
+        format!("{} are missing; a planar rod does not need them, and the setup is without them", missing.join(", ")),
     );
     // as raw values they go by their names, and their units are those of the setup
     look.proposal.columns.retain(|(role, _)| *role == Role::Time);
