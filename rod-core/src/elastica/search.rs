@@ -305,6 +305,7 @@ fn followed<'a, M: RodModel>(
 }
 
 #[cfg(test)]
+#[expect(clippy::print_stdout, reason = "prints the numbers of docs/elastica.md")]
 mod tests {
     use super::*;
     use crate::elastica::tip::DeadLoad;
