@@ -239,7 +239,7 @@ fn units_are_no_cause_of_what_friction_explains() {
     done(path, 0, &["simulate", "scene.toml", "--rate", "20", "--file", "r.csv"]);
     let (_, complaint) = done(path, 2, &["reconstruct", "r.csv", "--rod", "scene.toml", "--out", "out"]);
     assert!(complaint.contains("the contacts have friction: a coefficient mu = 0.3000"), "{complaint}");
-    assert!(complaint.contains("tried: friction with mu = 0.30: 100 %"), "{complaint}");
+    assert!(complaint.contains("causes among the tested ones: friction with mu = 0.30: 100 %"), "{complaint}");
 }
 
 /// `live` said nothing of it.
