@@ -39,7 +39,7 @@ fn all_mistakes_of_a_table_in_one_message() {
                yield_stress is -1, expected a positive, finite number";
     says(&rod, &["scene.toml:1:1: rod: ", all]);
     let rod = edited("length = 0.1\ndiameter = 0.5e-3\n", "length = \"long\"\ndiameter = \"0.5 mN\"\n");
-    let all = "`mN` is a unit of force, expected one of length: m, mm, um, cm, in, ft; length is the text \"long\", expected a number";
+    let all = "`mN` is a unit of force, expected one of length: m, mm, um, cm, in, ft (line 3); length is the text \"long\", expected a number (line 2)";
     says(&rod, &["scene.toml:1:1: rod: diameter is \"0.5 mN\": ", all]);
     let path = edited("from = [0.07, -0.04]\nto = [0.03, -0.04]\n", "").replace("1e-3", "-1e-3");
     let all = "missing field `from`; missing `to`, or `angle_to` for a clamp that turns on the spot; step is -0.001, expected a positive";
@@ -47,7 +47,10 @@ fn all_mistakes_of_a_table_in_one_message() {
     let path = edited("from = [0.07, -0.04]\n", "from = [0,07, -0,04]\n").replace("angle = 90.0", "turn = 90.0");
     says(&path, &["scene.toml:17:9: the value is `0,07`, expected a decimal point"]);
     let object = square("angle = true\nscale = 0").replace("points = ", "edges = ");
-    says(&object, &["scene.toml:6:1: object[1]: angle is true, expected a number; scale is 0, expected a positive"]);
+    says(
+        &object,
+        &["scene.toml:6:1: object[1]: angle is true, expected a number (line ", "; scale is 0, expected a positive"],
+    );
     let arc = piece("arc", "radius = [1]\nend = 3");
     let all =
         "missing field `center`; unknown field `end`, expected one of `center`, `radius`, `from_angle`, `to_angle`";
@@ -56,7 +59,8 @@ fn all_mistakes_of_a_table_in_one_message() {
     says(
         &leg,
         &[
-            "sweep.leg[1]: pivot is a list of 1, expected two numbers: [x, y]; turn is the text \"90\", expected a number",
+            "sweep.leg[1]: pivot is a list of 1, expected two numbers: [x, y] (line ",
+            "; turn is the text \"90\", expected a number",
         ],
     );
 }
@@ -68,7 +72,7 @@ fn a_wrong_unit() {
     let expected =
         "youngs_modulus is \"206 mm\": `mm` is a unit of length, expected one of stress: Pa, kPa, MPa, GPa, psi";
     says(&edited("206e9", "\"206 mm\""), &["scene.toml:4:18: rod.youngs_modulus: ", expected]);
-    let expected = "from is \"-4 kg\": `kgf` is a unit of force, expected one of length";
+    let expected = "from is \"-4 kg\": `kg` is a unit of mass, expected one of length";
     says(&edited("[0.07, -0.04]", "[0.07, \"-4 kg\"]"), &["scene.toml:17:15: sweep.from[2]: ", expected]);
     let expected =
         "angle is \"90 furlongs\": `furlongs` is no unit that is known, expected one of angle: rad, mrad, deg";
@@ -107,7 +111,7 @@ fn a_wrong_type() {
     says(&edited("0.1", "\"long\""), &["scene.toml:2:10: rod.length: ", "the text \"long\"", "expected a number"]);
     says(
         &edited("[0.03, 0.0]", "0.03"),
-        &["scene.toml:13:10: contour.piece[2].vertex: ", "the value is 0.03", "expected a list"],
+        &["scene.toml:13:10: contour.piece[2].vertex: ", "vertex is 0.03, expected two numbers: [x, y]"],
     );
     says(
         &edited("[0.07, -0.04]", "[0.07]"),

@@ -174,5 +174,9 @@ test('a handle changes the object, a link and a file bring it back', { skip, tim
     await page.evaluate(`location.hash = 'nothing'`);
     await seconds(0.3);
     assert.equal(await text(page, 'xy'), '70.0, -60.0');
+    assert.match(await text(page, 'message'), /^The address is not opened/);
+    await page.evaluate(`location.hash = playground.toHash(playground.toText({ ...playground.preset('square'), rod: playground.WIRE }, [0.06, -0.06, 1.5], [1, 0, 0]))`);
+    await until('another equilibrium is told', async () => /other contacts/.test(await text(page, 'message')));
+    assert.equal(await text(page, 'xy'), '60.0, -60.0');
     assert.deepEqual(page.errors, []);
 });

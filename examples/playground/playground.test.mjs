@@ -14,7 +14,7 @@ const here = name => new URL(name, import.meta.url);
 const path = process.env.PLAYGROUND_WASM ?? here('target/wasm32-unknown-unknown/release/playground.wasm');
 const module = new WebAssembly.Module(readFileSync(path));
 for (const script of ['rod.js', 'scene.js', 'recording.js']) await import(here(`page/${script}`));
-const { Rod, Recording, OBJECTS, WIRE, preset, toText, fromText, toHash, fromHash, toToml, fromToml } = globalThis.playground;
+const { Rod, Recording, OBJECTS, WIRE, preset, toText, fromText, toHash, fromHash, toToml, fromToml, isSameEquilibrium } = globalThis.playground;
 const scene = (object, rod = {}) => ({ ...preset(object), rod: { ...WIRE, ...rod } });
 
 /// The scan of the paper with so many states in a mm: all states, the events, and the recording of it.
@@ -113,7 +113,27 @@ test('a scene comes back from the address and from a file', () => {
     for (const wrong of ['', '{}', 'null', '[]', text.replace('0.025', '"r"'), text.replace('disc', 'toString')]) {
         assert.throws(() => fromText(wrong));
     }
+    assert.throws(() => fromText('null'), /no scene of this page/);
+    assert.throws(() => fromText(fromHash('AAAA')), /damaged or cut off/);
+    assert.throws(() => fromHash('AAAAA'), /damaged or cut off/);
     assert.throws(() => fromToml('[rod]\nlength = 0.1\n'), /this page has saved/);
+});
+
+test('an address tells which equilibrium it is', () => {
+    const { states } = scan(), { rod } = scene('parabolas');
+    const { pose, reactions } = states.find(({ phase }) => phase === 'B');
+    const saved = fromText(toText(scene('parabolas'), pose, reactions));
+    assert.ok(isSameEquilibrium(saved.reactions, reactions, rod));
+    assert.ok(!isSameEquilibrium(saved.reactions, states[0].reactions, rod));
+    assert.equal(fromText(toText(scene('parabolas'), pose)).reactions, undefined);
+});
+
+test('many overlapping discs do not hold the page up', () => {
+    const rod = new Rod(module), { rod: wire, home } = scene('disc');
+    rod.build({ shapes: Array.from({ length: 20 }, () => ({ shape: 'disc', center: [0, 0.02], radius: 0.02 })), rod: wire }, home);
+    const start = performance.now();
+    for (let x = home[0]; x > 0.02; x -= 2e-3) rod.moveTo([x, -0.04, home[2]]);
+    assert.ok(performance.now() - start < 5000);
 });
 
 test('the command reads what the page saves', { skip: !process.env.PLAYGROUND_SAVED }, () => {

@@ -9,7 +9,6 @@ use numpy::{IntoPyArray, PyArray2};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::f64::consts::TAU;
 use vibrissa::Pose;
 use vibrissa::rod::{
     AnyRod, DeadLoad, ElasticaArgument, ElasticaEquilibrium, ElasticaError, Section, Tip, TipEnd, elastica_equilibria,
@@ -116,6 +115,12 @@ impl PyElastica {
         self.one.unstable_directions
     }
 
+    /// Whether the second variation vanishes in a direction: at a critical load, or of one that belongs to a family.
+    #[getter]
+    fn critical(&self) -> bool {
+        self.one.critical
+    }
+
     /// Largest violation of the equations: L, rad, and moments in E I / L relative to 1 + the largest of them; at most 1e-12.
     #[getter]
     fn residual(&self) -> f64 {
@@ -123,7 +128,11 @@ impl PyElastica {
     }
 
     fn __repr__(&self) -> String {
-        let stable = if self.one.stable { "stable" } else { "unstable" };
+        let stable = match (self.one.stable, self.one.unstable_directions) {
+            (true, _) => "stable",
+            (false, 0) => "critical",
+            (false, _) => "unstable",
+        };
         let Section { x, y, phi, .. } = self.tip_section();
         // no -0.000
         let [x, y, phi] = [1e3 * x, 1e3 * y, phi].map(|value| (1e3 * value).round() / 1e3 + 0.0);
@@ -143,6 +152,19 @@ impl<'py> FromPyObject<'py> for Branches {
         number.map(|number| Self(Some(number))).ok_or_else(|| {
             let found = object.repr().map_or_else(|_| "something else".to_owned(), |text| text.to_string());
             errors::value(format!("branches is {found}, expected a whole number, at least 1, or 'all'"))
+        })
+    }
+}
+
+/// How many points a shape has.
+pub struct Points(usize);
+
+impl<'py> FromPyObject<'py> for Points {
+    fn extract_bound(object: &Bound<'py, PyAny>) -> PyResult<Self> {
+        let number = object.extract::<usize>().ok().filter(|number| (2..=MOST_POINTS).contains(number));
+        number.map(Self).ok_or_else(|| {
+            let found = object.repr().map_or_else(|_| "something else".to_owned(), |text| text.to_string());
+            errors::value(format!("points is {found}, expected a whole number from 2 to {MOST_POINTS}"))
         })
     }
 }
@@ -192,7 +214,7 @@ impl<'py> FromPyObject<'py> for Branches {
 /// >>> [one.stable for one in column]
 /// [True, True, False]
 #[pyfunction]
-#[pyo3(signature = (rod, pose, loads=None, tip=None, branches=Branches(Some(1)), points=200), text_signature = "(rod, pose, loads=(), tip=None, branches=1, points=200)")]
+#[pyo3(signature = (rod, pose, loads=None, tip=None, branches=Branches(Some(1)), points=Points(200)), text_signature = "(rod, pose, loads=(), tip=None, branches=1, points=200)")]
 pub fn elastica(
     py: Python<'_>,
     rod: &PyRod,
@@ -200,11 +222,9 @@ pub fn elastica(
     loads: Option<&Bound<'_, PyAny>>,
     tip: Option<&Bound<'_, PyDict>>,
     branches: Branches,
-    points: usize,
+    points: Points,
 ) -> PyResult<Vec<PyElastica>> {
-    if !(2..=MOST_POINTS).contains(&points) {
-        return Err(errors::value(format!("points is {points}, expected a whole number from 2 to {MOST_POINTS}")));
-    }
+    let Points(points) = points;
     let loads = loads.map_or_else(|| Ok(Vec::new()), dead_loads)?;
     let tip = tip.map_or(Ok(Tip::FREE), prescribed)?;
     let found = running::run(py, || elastica_equilibria(&rod.rod, pose.0, &loads, &tip))?;
@@ -291,13 +311,5 @@ fn prescribed(fields: &Bound<'_, PyDict>) -> PyResult<Tip> {
         }
     }
     let [x, y, phi] = given.map(|given| given.map_or(TipEnd::Loaded(0.0), |(_, end)| end));
-    if let TipEnd::Held(phi) = phi
-        && phi.is_finite()
-        && phi.abs() > 4.0 * TAU
-    {
-        let message =
-            format!("tip: phi is {phi:?} rad, expected at most four turns; angles are in rad, not in degrees");
-        return Err(errors::value(message));
-    }
     Ok(Tip { x, y, phi })
 }

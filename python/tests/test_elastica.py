@@ -146,6 +146,15 @@ def test_what_an_equilibrium_has(wire: vibrissa.Rod) -> None:
     assert len(ax.lines) == 3 and [text.get_text() for text in ax.texts] == ["1", "0"]
 
 
+def test_a_family_is_one_critical_equilibrium(wire: vibrissa.Rod) -> None:
+    # a closed loop slides along itself: an equilibrium at each arc length, all of one energy
+    found = vibrissa.elastica(wire, (0.0, 0.0, 0.0), (), dict(pose=(0.0, 0.0, 0.0)), branches="all")
+    energies = [one.potential_energy for one in found]
+    assert found[0].critical and not found[0].stable and found[0].unstable_directions == 0
+    assert len(found) < 8 and all(b > a * 1.001 for a, b in zip(energies, energies[1:])), energies
+    assert "critical" in repr(found[0])
+
+
 def test_wrong_arguments(wire: vibrissa.Rod) -> None:
     def refused(error: type[Exception], message: str, loads: Any = (), tip: Any = None, **others: Any) -> None:
         with pytest.raises(error, match=re.escape(message)):
@@ -158,11 +167,12 @@ def test_wrong_arguments(wire: vibrissa.Rod) -> None:
     refused(ValueError, "tip: place is (0.1, 0.0) m, 0.1 m from the clamp, expected less than 0.1 m", tip=dict(place=(0.1, 0.0)))
     refused(ValueError, "tip has place and fx, expected one of the two along x", tip=dict(place=(0.05, 0.0), fx=1.0))
     refused(ValueError, "tip has the field angle, expected place, pose or force, or x or fx", tip=dict(angle=1.0))
-    refused(ValueError, "tip: phi is 90.0 rad, expected at most four turns", tip=dict(phi=90.0))
+    refused(ValueError, "tip: phi is 90.0 rad, 14.3 turns from the clamp, expected at most 4", tip=dict(phi=90.0))
     refused(ValueError, "tip: moment is nan, expected a finite number".replace("nan", "NaN"), tip=dict(moment=math.nan))
     refused(TypeError, "tip: place: expected two numbers, found 3", tip=dict(place=(0.0, 0.0, 0.0)))
     refused(ValueError, "pose: x is NaN, expected a finite number", pose=(math.nan, 0.0, 0.0))
     refused(ValueError, "branches is 0, expected a whole number, at least 1, or 'all'", branches=0)
     refused(ValueError, "points is 1, expected a whole number from 2 to", points=1)
+    refused(ValueError, "points is -5, expected a whole number from 2 to", points=-5)
     springs = vibrissa.Rod(0.1, 6.3e-4, clamp=vibrissa.ElasticClamp(stiffness_phi=0.4))
     refused(ValueError, "rod: the clamp of the rod has springs or a roller, expected a rod on a rigid clamp", rod=springs)

@@ -210,6 +210,28 @@ mod tests {
         assert_eq!(copy.to(clamp(-0.9)).unwrap_err().reason, StopReason::Jump);
     }
 
+    /// Wherever the rod is cut, each part meets the boxes of all of them: it was halved down to 1e-12 all along.
+    #[test]
+    fn many_objects_that_overlap_do_not_hold_it_up() {
+        use rod_contours::CircularArc;
+        let rod = Rod::new(1.0, 1.0).unwrap();
+        let clamp = |x| Pose { x, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
+        let disc = |x| {
+            let circle = CircularArc::new([x, 0.2], 0.2, 0.0, std::f64::consts::TAU).unwrap();
+            Composite::single(circle).unwrap()
+        };
+        let pressed = |count: usize, apart: f64| {
+            let discs: Vec<Composite> = (0..count).map(|k| disc(apart * k as f64)).collect();
+            let mut rod = Follower::new(&rod, &discs, clamp(0.8)).unwrap();
+            rod.to(clamp(0.2)).unwrap();
+            rod.state().reactions
+        };
+        // the rod comes from the right and touches the last one of them only
+        let (many, one) = (pressed(20, -0.005), pressed(1, 0.0));
+        assert!((many.f0x - one.f0x).abs() < 1e-9 && one.f0x.abs() > 0.1, "{many:?} {one:?}");
+        assert!((pressed(20, 0.0).f0x - one.f0x).abs() < 1e-9);
+    }
+
     #[test]
     fn it_goes_from_thread_to_thread() {
         fn is_send<T: Send>() {}

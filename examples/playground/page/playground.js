@@ -1,7 +1,7 @@
 // The page: each frame moves the clamp a little towards where it is wished, and shows the answer.
 (async () => {
     const { MODULE, Rod, Recording, View, Chart, Input, Panel, OBJECTS, WIRE } = globalThis.playground;
-    const { preset, stiffness, toText, fromText, toHash, fromHash, toToml, fromToml } = globalThis.playground;
+    const { preset, stiffness, toText, fromText, toHash, fromHash, toToml, fromToml, isSameEquilibrium } = globalThis.playground;
     const id = name => document.getElementById(name);
 
     /// Farthest way of the clamp in a frame, m and rad: a longer one takes longer than a frame. The clamp lags behind a fast hand.
@@ -219,19 +219,32 @@
     let hashDue = 0, lastText = '';
     function writeHash() {
         hashDue = 0;
-        const text = toText(scene, state.pose);
+        const text = toText(scene, state.pose, state.reactions);
         if (text === lastText) return;
         lastText = text;
         history.replaceState(null, '', `#${toHash(text)}`);
     }
     const due = () => { hashDue = performance.now() + REST; };
 
-    /// The scene of the address; none where there is none, or another text.
-    function ofHash() {
+    /// Opens a scene of an address or a file by `show(scene, pose)`, and says if the whisker is in another equilibrium than when it was saved.
+    function restore({ pose, reactions, ...saved }, show) {
+        if (!show(saved, pose)) return false;
+        if (!same(state.pose, pose)) return true;
+        if (reactions && !isSameEquilibrium(reactions, state.reactions, scene.rod)) {
+            panel.say('The whisker had other contacts at this pose when this was saved: the way there decides which. Only the scene and the pose are restored.');
+        }
+        return true;
+    }
+
+    /// Opens the scene of the address; says why if it cannot.
+    function openAddress(show) {
+        const hash = location.hash.slice(1);
+        if (hash === '') return false;
         try {
-            return fromText(fromHash(location.hash.slice(1)));
-        } catch {
-            return undefined;
+            return restore(fromText(fromHash(hash)), show);
+        } catch (error) {
+            panel.say(`The address is not opened: ${error.message}.`);
+            return false;
         }
     }
 
@@ -286,15 +299,15 @@
     id('csv').addEventListener('click', () => download('recording.csv', 'text/csv', recording.toCsv()));
     id('save').addEventListener('click', () => {
         const [from, to] = recording?.scene === scene ? [recording.poseAt(0), recording.poseAt(-1)] : [scene.home, state.pose];
-        download('scene.toml', 'application/toml', toToml(scene, from, to, state.pose));
+        download('scene.toml', 'application/toml', toToml(scene, from, to, state.pose, state.reactions));
     });
     id('load').addEventListener('click', () => id('file').click());
     id('file').addEventListener('change', async () => {
         try {
             const [file] = id('file').files;
-            const { pose, ...loaded } = fromToml(await file.text());
+            const loaded = fromToml(await file.text());
             restart();
-            edit(loaded, pose);
+            restore(loaded, edit);
         } catch (error) {
             panel.say(`Not loaded: ${error.message}.`);
         }
@@ -309,10 +322,7 @@
             panel.say('Copy the address of this page: it has the state.');
         }
     });
-    addEventListener('hashchange', () => {
-        const { pose, ...linked } = ofHash() ?? {};
-        if (pose) edit(linked, pose);
-    });
+    addEventListener('hashchange', () => openAddress(edit));
     const fit = () => {
         view.fit();
         chart.fit();
@@ -321,9 +331,12 @@
     new ResizeObserver(fit).observe(id('view'));
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', fit);
 
-    const { pose, ...linked } = ofHash() ?? {};
-    const first = preset('parabolas');
-    if (!pose || !build(linked, pose)) build({ ...first, rod: { ...WIRE } }, first.home);
+    if (!openAddress(build)) {
+        // why not: building the first scene says nothing
+        const why = id('message').textContent, first = preset('parabolas');
+        build({ ...first, rod: { ...WIRE } }, first.home);
+        panel.say(why);
+    }
     requestAnimationFrame(frame);
 })().catch(error => {
     document.getElementById('message').textContent = `This page cannot run here: ${error.message}`;

@@ -41,6 +41,9 @@
         length: [0.04, 0.15], diameter: [1e-4, 1e-3], modulus: [1e6, 1e12], taper: [0.1, 1], curvature: [-12, 12], friction: [0, 1],
     };
 
+    /// Relative difference of the reactions of one equilibrium.
+    const SAME = 1e-3;
+
     const preset = object => {
         const [, shapes, home] = OBJECTS[object];
         return { object, shapes: structuredClone(shapes), home: [...home] };
@@ -57,24 +60,46 @@
         : shape?.shape === 'disc' ? isPoint(shape.center) && isNumber(shape.radius)
         : shape?.shape === 'polygon' && Array.isArray(shape.points) && shape.points.length <= 100 && shape.points.every(isPoint);
 
-    /// The scene of a text that `toText` has made; throws where it is none. Nothing of it is trusted.
+    /// The value of a text in JSON; throws where it is none.
+    function parsed(text) {
+        try {
+            return JSON.parse(text) ?? {};
+        } catch {
+            throw new Error('it is damaged or cut off');
+        }
+    }
+
+    /// The scene of a text that `toText` has made, with the reactions at its pose; throws where it is none. Nothing of it is trusted.
     function fromText(text) {
-        const { object, shapes, home, pose, rod } = JSON.parse(text);
+        const { object, shapes, home, pose, rod, reactions } = parsed(text);
         const isRod = Object.entries(LIMITS).every(([name, [least, most]]) =>
             isNumber(rod?.[name]) || name === 'modulus' && least <= rod?.modulus && rod.modulus <= most);
         if (!Object.hasOwn(OBJECTS, object) || !Array.isArray(shapes) || shapes.length === 0 || shapes.length > 20
-            || !shapes.every(isShape) || !isPose(home) || !isPose(pose) || !isRod) throw new Error('no scene of this page');
+            || !shapes.every(isShape) || !isPose(home) || !isPose(pose) || !isRod) throw new Error('it is no scene of this page');
         const within = ([name, [least, most]]) => [name, Math.min(most, Math.max(least, rod[name]))];
-        return { object, shapes, home, pose, rod: Object.fromEntries(Object.entries(LIMITS).map(within)) };
+        const felt = Array.isArray(reactions) && reactions.length === 3 && reactions.every(isNumber) ? { reactions } : {};
+        return { object, shapes, home, pose, rod: Object.fromEntries(Object.entries(LIMITS).map(within)), ...felt };
     }
 
-    /// Nanometres and nanoradians are enough to go on from.
-    const toText = ({ object, shapes, home, rod }, pose) => JSON.stringify({ object, shapes, home, pose, rod },
+    /// Nanometres and nanoradians are enough to go on from. At one pose there may be several equilibria: the reactions tell which it is.
+    const toText = ({ object, shapes, home, rod }, pose, reactions) => JSON.stringify({ object, shapes, home, pose, rod, reactions },
         (_, value) => typeof value === 'number' && Math.abs(value) < 100 ? Number(value.toPrecision(10)) : value);
 
     // Base64 of the text, in the letters that an address may have.
     const toHash = text => btoa(text).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
-    const fromHash = hash => atob(hash.replaceAll('-', '+').replaceAll('_', '/'));
+    function fromHash(hash) {
+        try {
+            return atob(hash.replaceAll('-', '+').replaceAll('_', '/'));
+        } catch {
+            throw new Error('it is damaged or cut off');
+        }
+    }
+
+    /// Whether two reactions are those of one equilibrium, but for the digits of an address: forces relative to EI / L^2.
+    function isSameEquilibrium(one, other, rod) {
+        const force = stiffness(rod) / rod.length ** 2, units = [force, force, force * rod.length];
+        return one.every((value, index) => Math.abs(value - other[index]) <= SAME * (units[index] + Math.abs(value)));
+    }
 
     const degrees = angle => Number((angle * 180 / Math.PI).toPrecision(12));
     /// A number as TOML reads a float.
@@ -84,7 +109,7 @@
 
     /// A scene file that `vibrissa sweep` reads: from the first pose of the scene, or of a recording, to another one. The page finds itself in
     /// the comment at the end again.
-    function toToml(scene, from, to, now) {
+    function toToml(scene, from, to, now, reactions) {
         const { rod, shapes } = scene;
         const lines = ['# Scene of the playground.', '[rod]', `length = ${float(rod.length)} # m`,
             `diameter = ${float(rod.diameter)} # m`, `youngs_modulus = ${float(rod.modulus)} # Pa`];
@@ -112,7 +137,7 @@
         if (phi !== from[2]) lines.push(`angle_to = ${float(degrees(phi))}`);
         // a sweep that only turns has steps of angle
         lines.push(Math.hypot(x - from[0], y - from[1]) > 1e-9 ? 'step = 1e-3 # m' : 'step_angle = 1.0 # degrees');
-        return `${lines.join('\n')}\n${ENTRY}${toText(scene, now)}\n`;
+        return `${lines.join('\n')}\n${ENTRY}${toText(scene, now, reactions)}\n`;
     }
 
     /// The scene of a file that `toToml` has written; the tables themselves are not read.
@@ -123,5 +148,5 @@
     }
 
     Object.assign(globalThis.playground ??= {},
-        { OBJECTS, WIRE, LIMITS, preset, stiffness, toText, fromText, toHash, fromHash, toToml, fromToml });
+        { OBJECTS, WIRE, LIMITS, preset, stiffness, toText, fromText, toHash, fromHash, toToml, fromToml, isSameEquilibrium });
 })();

@@ -173,7 +173,7 @@ fn scene(name: String, source: SourceText, document: &ElasticaFile) -> Result<El
         rod,
         clamp,
         loads: load.iter().map(dead_load).collect(),
-        tip: tip.as_ref().map_or(Ok(Tip::FREE), |table| prescribed(table.get_ref()))?,
+        tip: tip.as_ref().map_or(Ok(Tip::FREE), prescribed)?,
         branches: branches.as_ref().map_or(Ok(Some(1)), count)?,
         points: points.as_ref().map_or(Ok(POINTS), number_of_points)?,
         warnings: Vec::new(),
@@ -222,8 +222,8 @@ fn number_of_points(field: &Spanned<i64>) -> Result<usize, Fault> {
 }
 
 /// What the fields of the tip prescribe: along each coordinate its value or the load, none of which is 0.
-fn prescribed(table: &TipTable) -> Result<Tip, Fault> {
-    let TipTable { place, x, y, angle: direction, force, fx, fy, moment } = table;
+fn prescribed(table: &Spanned<TipTable>) -> Result<Tip, Fault> {
+    let TipTable { place, x, y, angle: direction, force, fx, fy, moment } = table.get_ref();
     let of = |point: &Option<Spanned<PointValue>>, k: usize| {
         point.as_ref().map(|point| (point.span(), point.get_ref().0[k]))
     };
@@ -237,18 +237,19 @@ fn prescribed(table: &TipTable) -> Result<Tip, Fault> {
         ("y", [("place", of(place, 1)), ("y", one(y))], [("force", of(force, 1)), ("fy", one(fy))]),
         ("angle", [("angle", direction), ("", None)], [("moment", one(moment)), ("", None)]),
     ];
+    let mut faults = Vec::new();
     let [x, y, phi] = coordinates.map(|(coordinate, held, loaded)| {
         let held = held.into_iter().filter_map(|(name, value)| Some((name, value?, true)));
         let loaded = loaded.into_iter().filter_map(|(name, value)| Some((name, value?, false)));
         let mut given = held.chain(loaded);
-        let Some((first, (_, value), is_held)) = given.next() else { return Ok(TipEnd::Loaded(0.0)) };
-        if let Some((second, (span, _), _)) = given.next() {
+        let Some((first, (_, value), is_held)) = given.next() else { return TipEnd::Loaded(0.0) };
+        faults.extend(given.map(|(second, (span, _), _)| {
             let message = format!("{second} is given beside {first}, expected one of the two along {coordinate}");
-            return Err(Fault::new(span, message));
-        }
-        Ok(if is_held { TipEnd::Held(value) } else { TipEnd::Loaded(value) })
+            Fault::new(span, message)
+        }));
+        if is_held { TipEnd::Held(value) } else { TipEnd::Loaded(value) }
     });
-    Ok(Tip { x: x?, y: y?, phi: phi? })
+    Fault::all(table.span(), faults).map_or(Ok(Tip { x, y, phi }), Err)
 }
 
 #[cfg(test)]
@@ -325,6 +326,25 @@ mod tests {
                 "rod.toml:1:11: clamp.stiffness_x: unknown field `stiffness_x`, expected `place` or `angle`",
             ),
             ("tips = 1", "rod.toml:1:1: tips: unknown field `tips`"),
+            (
+                "[tip]\nplace = [0, 0]\nx = 0.01\nfy = 1",
+                "rod.toml:1:1: tip: x is given beside place, expected one of the two along x (line 3); fy is given beside place, \
+                 expected one of the two along y (line 4)",
+            ),
+            (
+                "[[load]]\ns = \"1 N\"\nforce = [0, 1]\n[[load]]\ns = 0.1\nforce = 0.01",
+                "rod.toml:1:1: load[1]: s is \"1 N\": `N` is a unit of force, expected one of length: m, mm, um, cm, in, ft (line 2); \
+                 force is 0.01, expected two numbers: [x, y] (line 6)",
+            ),
+            (
+                "[load]\ns = 0.1\nforce = [0, 1]",
+                "rod.toml:1:1: load: load is a table, expected a list of tables: [[load]]",
+            ),
+            ("tip = { x = 2020-01-01 }", "rod.toml:1:13: tip.x: x is a date, expected a number"),
+            (
+                "clamp = { roller = 0.01 }",
+                "rod.toml:1:11: clamp.roller: unknown field `roller`, expected `place` or `angle`: the",
+            ),
         ] {
             let error = read(table).unwrap_err();
             assert!(error.starts_with(message), "{error}");

@@ -155,7 +155,7 @@ mod tests {
         assert!(!filmed.is_stiffness_known && filmed.rod.length() == 0.04);
         let error = parse("[rod]\nlength = \"40 kg\"\nbending_stiffness = 1").unwrap_err().to_string();
         let expected =
-            "rod.toml:2:10: rod.length: length is \"40 kg\": `kgf` is a unit of force, expected one of length: m, mm";
+            "rod.toml:2:10: rod.length: length is \"40 kg\": `kg` is a unit of mass, expected one of length: m, mm";
         assert!(error.starts_with(expected), "{error}");
     }
 

@@ -146,6 +146,7 @@ pub(super) fn scene(table: &Spanned<DeTable<'_>>) -> Result<Quantities, Fault> {
     let tables = table.get_ref();
     let is_missing = |name: &&str| !tables.contains_key(*name);
     let missing: Vec<&str> = ["rod", "sweep"].into_iter().filter(is_missing).collect();
+    check_list(tables, "object")?;
     let nothing = ["contour", "object"].iter().all(is_missing);
     if missing.len() + usize::from(nothing) > 1 {
         let names = missing.into_iter().map(|name| format!("[{name}]")).chain(nothing.then(|| "[[object]]".to_owned()));
@@ -195,10 +196,40 @@ pub(super) fn filmed_rod(table: &Spanned<DeTable<'_>>) -> Result<Quantities, Fau
 /// As [`scene`].
 pub(super) fn elastica(table: &Spanned<DeTable<'_>>) -> Result<Quantities, Fault> {
     let mut quantities = of_rod_alone(table, STIFFNESS)?;
+    check_list(table.get_ref(), "load")?;
+    for clamp in tables_of(table.get_ref(), "clamp") {
+        let fields = clamp.get_ref().as_table().into_iter().flatten();
+        if let Some((key, _)) = fields.into_iter().find(|(key, _)| CLAMP.iter().any(|rule| rule.name == key.get_ref()))
+        {
+            let message =
+                format!("unknown field `{}`, expected `place` or `angle`: the clamp is rigid here", key.get_ref());
+            return Err(Fault::new(key.span(), message));
+        }
+    }
     for (name, rules) in [("clamp", CLAMP_POSE), ("load", LOAD), ("tip", TIP)] {
-        tables_of(table.get_ref(), name).into_iter().try_for_each(|one| check(one, rules, &[], &mut quantities))?;
+        let tables = tables_of(table.get_ref(), name);
+        let faults = tables.iter().filter_map(|one| check(one, rules, &[], &mut quantities).err()).collect();
+        let first = tables.first().map_or(0..0, |one| one.span());
+        if let Some(fault) = Fault::all(first, faults) {
+            return Err(fault);
+        }
     }
     Ok(quantities)
+}
+
+/// Refuses a single table where a list of them belongs.
+fn check_list(table: &DeTable<'_>, name: &str) -> Result<(), Fault> {
+    match table.get(name) {
+        // of an object with pieces that is no list, more is said where it is read
+        Some(value) if value.get_ref().is_table() && value.get_ref().get("piece").is_none() => {
+            Err(Fault::new(value.span(), single(name)))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn single(name: &str) -> String {
+    format!("{name} is a table, expected a list of tables: [[{name}]] with two brackets")
 }
 
 fn of_rod(table: &Spanned<DeTable<'_>>, unless: &[MissingUnless]) -> Result<Quantities, Fault> {
@@ -262,7 +293,7 @@ fn check(
     quantities: &mut Quantities,
 ) -> Result<(), Fault> {
     let Some(fields) = table.get_ref().as_table() else { return Ok(()) };
-    let mut reader = Reader { quantities, faults: Vec::new(), has_wrong_unit: false };
+    let mut reader = Reader { quantities, faults: Vec::new(), is_final: false };
     let names: Vec<&str> = rules.iter().map(|rule| rule.name).collect();
     let mut mistyped = Vec::new();
     for (key, value) in fields {
@@ -284,12 +315,9 @@ fn check(
     let missing: Vec<String> = missing.map(|rule| format!("`{}`", rule.name)).collect();
     let others = unless.iter().filter(|(names, _)| !names.iter().any(|name| is_there(name)));
     let others: Vec<&str> = others.map(|(_, said)| *said).take(if unless == STIFFNESS { 1 } else { 2 }).collect();
-    let Reader { faults, has_wrong_unit, .. } = reader;
+    let Reader { faults, is_final, .. } = reader;
     let count = missing.len() + others.len() + faults.len();
-    if count == 1 && has_wrong_unit {
-        return faults.into_iter().next().map_or(Ok(()), Err);
-    }
-    if count < 2 {
+    if count < 2 && !is_final {
         return Ok(());
     }
     let of_all = match missing.as_slice() {
@@ -297,22 +325,26 @@ fn check(
         [one] => Some(format!("missing field {one}")),
         several => Some(format!("missing fields {}", several.join(", "))),
     };
-    let others = others.into_iter().map(str::to_owned);
-    let faults = faults.iter().map(|fault| fault.message().to_owned());
-    let all: Vec<String> = of_all.into_iter().chain(others).chain(faults).collect();
-    Err(Fault::new(table.span(), all.join("; ")))
+    let missing = of_all.into_iter().chain(others.into_iter().map(str::to_owned));
+    let missing = missing.map(|message| Fault::new(table.span(), message));
+    Fault::all(table.span(), missing.chain(faults).collect()).map_or(Ok(()), Err)
 }
 
 struct Reader<'a> {
     quantities: &'a mut Quantities,
     faults: Vec<Fault>,
-    has_wrong_unit: bool,
+    /// Whether one of them is said nowhere else so well.
+    is_final: bool,
 }
 
 impl Reader<'_> {
     fn field(&mut self, rule: &FieldRule, value: &Spanned<DeValue<'_>>) {
         let FieldRule { name, kind, positive, .. } = *rule;
         match kind {
+            Any if LISTS.contains(&name) && value.get_ref().is_table() => {
+                self.is_final = true;
+                self.faults.push(Fault::new(value.span(), single(name)));
+            }
             Any => {}
             Share => {
                 self.number(name, value, None, positive);
@@ -364,7 +396,7 @@ impl Reader<'_> {
                 match self.quantities.read(name, text, span.clone(), dimension) {
                     Some(Ok(number)) => Some(number),
                     Some(Err(fault)) => {
-                        self.has_wrong_unit = true;
+                        self.is_final = true;
                         return self.faults.push(fault);
                     }
                     None => None,
@@ -390,6 +422,8 @@ impl Reader<'_> {
             DeValue::Boolean(value) => value.to_string(),
             value => written_number(value).map_or_else(|| "a date".to_owned(), |number| number.to_string()),
         };
+        // the deserializer calls a date a table, and a point any list
+        self.is_final |= found == "a date" || expected.starts_with("two numbers");
         self.faults.push(Fault::new(span, format!("{name} is {found}, expected {expected}")));
     }
 }

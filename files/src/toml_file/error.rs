@@ -83,11 +83,26 @@ impl Invalid {
 pub(crate) struct Fault {
     span: Range<usize>,
     message: String,
+    /// Of several faults in a table: each of them.
+    parts: Vec<Fault>,
 }
 
 impl Fault {
     pub fn new(span: Range<usize>, message: impl Into<String>) -> Self {
-        Self { span, message: message::with_short_numbers(message.into()) }
+        Self { span, message: message::with_short_numbers(message.into()), parts: Vec::new() }
+    }
+
+    /// All that is wrong within a table: the message names the line of each fault that is not on the first line of the table. None where
+    /// there is no fault; a single one stays what it is.
+    pub fn all(span: Range<usize>, faults: Vec<Self>) -> Option<Self> {
+        let single = |fault: Self| if fault.parts.is_empty() { vec![fault] } else { fault.parts };
+        let mut faults: Vec<Self> = faults.into_iter().flat_map(single).collect();
+        if faults.len() < 2 {
+            return faults.pop();
+        }
+        let messages: Vec<&str> = faults.iter().map(Self::message).collect();
+        let message = messages.join("; ");
+        Some(Self { span, message, parts: faults })
     }
 
     /// What is wrong, without the place.
@@ -101,9 +116,25 @@ impl Fault {
     }
 
     /// The same, with more in the message.
-    pub fn and(self, more: &str) -> Self {
-        let message = format!("{}{more}", self.message);
-        Self { message, ..self }
+    pub fn and(mut self, more: &str) -> Self {
+        self.message.push_str(more);
+        if let Some(last) = self.parts.last_mut() {
+            last.message.push_str(more);
+        }
+        self
+    }
+
+    /// The message, with the lines of several faults.
+    fn message_in(&self, text: &str) -> String {
+        let line = |fault: &Self| line_at(text, fault.span.start);
+        let message = |part: &Self| match line(part) {
+            own if own == line(self) => part.message.clone(),
+            own => format!("{} (line {own})", part.message),
+        };
+        if self.parts.is_empty() {
+            return self.message.clone();
+        }
+        self.parts.iter().map(message).collect::<Vec<_>>().join("; ")
     }
 
     /// What is wrong with a text that is no TOML. Most often a number has a decimal comma, or a unit behind it: then the
@@ -137,10 +168,10 @@ impl Fault {
         let before = text.get(..self.span.start).unwrap_or(text);
         let start_of_line = before.rfind('\n').map_or(0, |newline| newline + 1);
         SceneError::Invalid(Box::new(Invalid {
-            line: before.matches('\n').count() + 1,
+            line: line_at(text, self.span.start),
             column: before[start_of_line..].chars().count() + 1,
             field: table.and_then(|table| field_at(table, &self.span)),
-            message: self.message,
+            message: self.message_in(text),
             text: NamedSource::new(&file, text.to_owned()).with_language("TOML"),
             span: self.span.into(),
             file,
@@ -195,6 +226,11 @@ impl From<toml::de::Error> for Fault {
         // An error without a place concerns the file as a whole.
         Self::new(error.span().unwrap_or(0..0), message)
     }
+}
+
+/// The line of a place, from 1.
+fn line_at(text: &str, place: usize) -> usize {
+    text.get(..place).unwrap_or(text).matches('\n').count() + 1
 }
 
 /// Where the names of the columns are in the text of a table (CSV, TSV), comments before them.

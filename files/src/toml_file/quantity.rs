@@ -5,6 +5,9 @@ use std::ops::Range;
 use toml::de::{DeTable, DeValue};
 use vibrissa::hw::{Dimension, Unit};
 
+/// Units of mass. Devices and their calibrations name the force so, too; in a file of a user it is a mistake.
+const MASSES: [&str; 6] = ["kg", "g", "mg", "t", "lb", "lbs"];
+
 /// Values of a file that are texts with a unit: where they stand, and the numbers that take their places, as TOML writes them.
 #[derive(Debug, Default)]
 pub(crate) struct Quantities(Vec<(Range<usize>, String)>);
@@ -27,6 +30,12 @@ impl Quantities {
                 return None;
             }
             let message = format!("{name} is \"{text}\", expected a decimal point: \"{}\"", text.replace(',', "."));
+            return Some(Err(Fault::new(span, message)));
+        }
+        if MASSES.contains(&unit) {
+            let weight = if dimension == Dimension::Force { "; the weight of 1 kg is 1 kgf" } else { "" };
+            let expected = format!("expected one of {dimension}: {}{weight}", dimension.units());
+            let message = format!("{name} is \"{text}\": `{unit}` is a unit of mass, {expected}");
             return Some(Err(Fault::new(span, message)));
         }
         Some(match Unit::parse(unit, dimension) {
@@ -139,6 +148,14 @@ mod tests {
         );
         let unknown = "length is \"40 furlongs\": `furlongs` is no unit that is known, expected one of length: m, mm";
         assert!(message("40 furlongs").starts_with(unknown));
+        let mass = "length is \"40 kg\": `kg` is a unit of mass, expected one of length: m, mm, um, cm, in, ft";
+        assert_eq!(message("40 kg"), mass);
+        let force = read("3 kg", Dimension::Force).unwrap().unwrap_err();
+        assert!(
+            force.contains("`kg` is a unit of mass, expected one of force: N, mN") && force.ends_with("1 kgf"),
+            "{force}"
+        );
+        assert!(message("100 mm^1").contains("`mm^1` is no unit") && message("100 m m").contains("`m m` is no unit"));
         assert_eq!(message("0,5 mm"), "length is \"0,5 mm\", expected a decimal point: \"0.5 mm\"");
     }
 }

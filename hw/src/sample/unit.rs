@@ -76,7 +76,7 @@ pub enum UnitError {
     },
 }
 
-/// Name, other spellings without separators, what it measures, factor.
+/// Name, other spellings, what it measures, factor. Blanks stand where a text may have separators.
 type Row = (&'static str, &'static [&'static str], Dimension, f64);
 
 const POUND: f64 = 4.448_221_615_260_5;
@@ -93,17 +93,17 @@ const UNITS: [Row; 54] = [
     ("klbf", &["klb"], Force, 1e3 * POUND),
     ("kgf", &["kg", "kp"], Force, GRAVITY),
     ("gf", &["g"], Force, 1e-3 * GRAVITY),
-    ("N m", &["Newtonmeter", "newtonmetre", "Newtonmeters"], Torque, 1.0),
+    ("N m", &["Newton meter", "newton metre", "Newton meters"], Torque, 1.0),
     ("mN m", &[], Torque, 1e-3),
-    ("N mm", &["Newtonmillimeter", "newtonmillimetre"], Torque, 1e-3),
-    ("uN m", &["µNm", "μNm"], Torque, 1e-6),
+    ("N mm", &["Newton millimeter", "newton millimetre"], Torque, 1e-3),
+    ("uN m", &["µN m", "μN m"], Torque, 1e-6),
     ("mN mm", &[], Torque, 1e-6),
     ("N cm", &[], Torque, 1e-2),
     ("cN m", &[], Torque, 1e-2),
     ("kN m", &[], Torque, 1e3),
-    ("lbf in", &["lbin", "inlb", "inlbf"], Torque, POUND * INCH),
-    ("lbf ft", &["lbft", "ftlb", "ftlbf"], Torque, POUND * 12.0 * INCH),
-    ("kgf cm", &["kgcm"], Torque, 1e-2 * GRAVITY),
+    ("lbf in", &["lb in", "in lb", "in lbf"], Torque, POUND * INCH),
+    ("lbf ft", &["lb ft", "ft lb", "ft lbf"], Torque, POUND * 12.0 * INCH),
+    ("kgf cm", &["kg cm"], Torque, 1e-2 * GRAVITY),
     ("m", &["metre", "meter", "metres", "meters"], Length, 1.0),
     ("mm", &["millimetre", "millimeter", "Millimeter"], Length, 1e-3),
     ("um", &["µm", "μm"], Length, 1e-6),
@@ -125,19 +125,19 @@ const UNITS: [Row; 54] = [
     ("MPa", &["N/mm2", "N/mm^2", "N/mm²"], Stress, 1e6),
     ("GPa", &["kN/mm2", "kN/mm^2", "kN/mm²"], Stress, 1e9),
     ("psi", &[], Stress, POUND / (INCH * INCH)),
-    ("1/m", &["m^1", "/m"], Curvature, 1.0),
-    ("1/mm", &["mm^1", "/mm"], Curvature, 1e3),
-    ("1/cm", &["cm^1", "/cm"], Curvature, 1e2),
-    ("N m^2", &["Nm2", "Nm²"], BendingStiffness, 1.0),
-    ("mN m^2", &["mNm2", "mNm²"], BendingStiffness, 1e-3),
-    ("uN m^2", &["uNm2", "µNm²", "μNm²", "µNm^2", "μNm^2"], BendingStiffness, 1e-6),
-    ("N mm^2", &["Nmm2", "Nmm²"], BendingStiffness, 1e-6),
+    ("1/m", &["m^-1", "/m"], Curvature, 1.0),
+    ("1/mm", &["mm^-1", "/mm"], Curvature, 1e3),
+    ("1/cm", &["cm^-1", "/cm"], Curvature, 1e2),
+    ("N m^2", &["N m2", "N m²"], BendingStiffness, 1.0),
+    ("mN m^2", &["mN m2", "mN m²"], BendingStiffness, 1e-3),
+    ("uN m^2", &["uN m2", "µN m²", "μN m²", "µN m^2", "μN m^2"], BendingStiffness, 1e-6),
+    ("N mm^2", &["N mm2", "N mm²"], BendingStiffness, 1e-6),
     ("N/m", &[], Stiffness, 1.0),
     ("N/mm", &["kN/m"], Stiffness, 1e3),
     ("mN/m", &["uN/mm", "µN/mm", "μN/mm"], Stiffness, 1e-3),
     ("N m/rad", &[], RotationalStiffness, 1.0),
-    ("mN m/rad", &["Nmm/rad"], RotationalStiffness, 1e-3),
-    ("N m/deg", &["Nm/°"], RotationalStiffness, 180.0 / PI),
+    ("mN m/rad", &["N mm/rad"], RotationalStiffness, 1e-3),
+    ("N m/deg", &["N m/°"], RotationalStiffness, 180.0 / PI),
 ];
 
 impl Unit {
@@ -155,15 +155,40 @@ impl Unit {
 
     /// The unit of this spelling, whatever it measures.
     pub fn find(text: &str) -> Option<Self> {
-        let is = |name: &str| compact(name).eq(compact(text));
+        let is = |name: &str| is_spelling(name, text);
         let row = UNITS.iter().find(|row| is(row.0) || row.1.iter().any(|other| is(other)));
         row.map(|&(name, _, dimension, factor)| Self { name, dimension, factor })
     }
 }
 
-/// Without what stands between the parts.
-fn compact(text: &str) -> impl Iterator<Item = char> {
-    text.chars().filter(|c| !c.is_whitespace() && !matches!(c, '-' | '*' | '.' | '·' | '⋅' | '_'))
+/// Whether a text is a spelling but for separators: those of the spelling may be missing or others, and there may be more beside what is no
+/// letter, but none within a word: `m m` is not mm.
+fn is_spelling(spelling: &str, text: &str) -> bool {
+    let mut written = parts(text);
+    let matches = parts(spelling).all(|(before, letter, is_apart)| {
+        let other = written.next();
+        other.is_some_and(|(_, own, own_is_apart)| {
+            let within_word = before.is_some_and(char::is_alphanumeric) && letter.is_alphanumeric();
+            own == letter && (is_apart || !own_is_apart || !within_word)
+        })
+    });
+    matches && written.next().is_none()
+}
+
+/// The characters that are no separators: each with the one before it, and whether a separator stands between the two. The hyphen of an
+/// exponent is none.
+fn parts(text: &str) -> impl Iterator<Item = (Option<char>, char, bool)> {
+    let (mut before, mut is_apart) = (None, false);
+    text.chars().filter_map(move |letter| {
+        let is_sign = letter == '-' && before == Some('^');
+        if !is_sign && (letter.is_whitespace() || matches!(letter, '-' | '*' | '.' | '·' | '⋅' | '_')) {
+            is_apart = true;
+            return None;
+        }
+        let part = (before, letter, is_apart);
+        (before, is_apart) = (Some(letter), false);
+        Some(part)
+    })
 }
 
 impl core::fmt::Display for Dimension {
@@ -181,6 +206,13 @@ impl core::fmt::Display for Dimension {
             Stiffness => "stiffness of a spring",
             RotationalStiffness => "stiffness against rotation",
         })
+    }
+}
+
+impl Dimension {
+    /// The names of its units, for messages: `m, mm, um, ...`.
+    pub fn units(self) -> impl core::fmt::Display {
+        List(self)
     }
 }
 
@@ -252,10 +284,16 @@ mod tests {
             ("N/mm^2", "MPa"),
             ("N m^2", "N m^2"),
             ("Nm/rad", "N m/rad"),
+            ("N m / rad", "N m/rad"),
+            ("1 / mm", "1/mm"),
+            ("mm^-1", "1/mm"),
+            ("mm^ -1", "1/mm"),
+            ("N mm ^ 2", "N mm^2"),
+            ("µN·m", "uN m"),
         ] {
             assert_eq!(Unit::find(text).map(|unit| unit.name), Some(name), "{text}");
         }
-        for text in ["", "MN", "nm", "NM", "counts", "V"] {
+        for text in ["", "MN", "nm", "NM", "counts", "V", "mm^1", "m m", "N m m", "m N", "de g", "1/m m", "G Pa"] {
             assert_eq!(Unit::find(text), None, "{text}");
         }
         let error = Unit::parse("counts", Force).unwrap_err().to_string();

@@ -39,16 +39,19 @@ pub struct ElasticaEquilibrium<M = Uniform> {
     pub bending_energy: f64,
     /// Bending energy less the work of the given loads from the shape at rest, J. The lowest one comes first.
     pub potential_energy: f64,
-    /// Whether each small motion that the tip allows needs energy: the second variation is positive definite.
+    /// Whether each small motion that the tip allows needs energy: the second variation is positive definite. Never true of a critical one.
     pub stable: bool,
     /// In how many independent directions the second variation is negative.
     pub unstable_directions: usize,
+    /// Whether the second variation vanishes in a direction: at a critical load, and of an equilibrium that belongs to a family of them.
+    pub critical: bool,
     /// Largest violation of the equations: L, rad, and moments in E I / L relative to 1 + the largest of them.
     pub residual: f64,
 }
 
 /// The equilibria of a rod that is clamped at `pose`, without contacts, under dead loads and with what is prescribed at its tip, by
-/// potential energy, the lowest first.
+/// potential energy, the lowest first. Of a family that moves without a change of energy, such as a closed loop that slides along itself,
+/// it gives one; that is [`critical`](ElasticaEquilibrium::critical).
 ///
 /// The search is sampled: it may miss equilibria. Each that it gives fulfils the equations to 1e-12 ([`residual`]). Without a held place the moment at the clamp is
 /// scanned over the whole range that it can have. With one there are infinitely many equilibria; the search starts from support forces up to 225 E I / L^2,
@@ -82,23 +85,43 @@ pub fn elastica_equilibria<R: PhysicalRod>(
     let found = search::equilibria(&problem);
     if found.is_empty() {
         let dimensionless = (LARGEST_PHASE / problem.root_compliance).powi(2);
-        return Err(ElasticaError::NotFound { most: dimensionless * units.force, dimensionless });
+        let distance = problem.distance();
+        return Err(ElasticaError::NotFound { most: dimensionless * units.force, dimensionless, distance });
     }
     let mut all: Vec<_> = found.into_iter().map(|one| equilibrium(model, &problem, one, units)).collect();
     all.sort_by(|one, other| one.potential_energy.total_cmp(&other.potential_energy));
     order_images(&mut all, units);
-    Ok(all)
+    Ok(one_of_each_family(all, units))
+}
+
+/// Whether two equilibria have one energy.
+fn alike<M>(one: &ElasticaEquilibrium<M>, other: &ElasticaEquilibrium<M>, units: Units) -> bool {
+    let size = units.energy + one.potential_energy.abs() + one.bending_energy;
+    (other.potential_energy - one.potential_energy).abs() <= SAME_ENERGY * size
 }
 
 /// Puts equilibria of one energy, such as mirror images, in the order of their moments at the clamp: first those that bend to the left.
 fn order_images<M>(all: &mut [ElasticaEquilibrium<M>], units: Units) {
-    let alike = |one: &ElasticaEquilibrium<M>, other: &ElasticaEquilibrium<M>| {
-        let size = units.energy + one.potential_energy.abs() + one.bending_energy;
-        (other.potential_energy - one.potential_energy).abs() <= SAME_ENERGY * size
-    };
-    for run in all.chunk_by_mut(alike) {
+    for run in all.chunk_by_mut(|one, other| alike(one, other, units)) {
         run.sort_by(|one, other| one.reactions.m0z.total_cmp(&other.reactions.m0z));
     }
+}
+
+/// Leaves one of those critical equilibria of one energy that are more than a pair of mirror images: they belong to a family.
+fn one_of_each_family<M>(all: Vec<ElasticaEquilibrium<M>>, units: Units) -> Vec<ElasticaEquilibrium<M>> {
+    let related = |one: &ElasticaEquilibrium<M>, other: &ElasticaEquilibrium<M>| {
+        let directions = [one, other].map(|one| one.unstable_directions);
+        one.critical && other.critical && directions[0] == directions[1] && alike(one, other, units)
+    };
+    let relatives = |one: &ElasticaEquilibrium<M>| all.iter().filter(|other| related(one, other)).count();
+    let is_of_family: Vec<bool> = all.iter().map(|one| relatives(one) > 2).collect();
+    let mut kept: Vec<ElasticaEquilibrium<M>> = Vec::new();
+    for (one, is_of_family) in all.into_iter().zip(is_of_family) {
+        if !(is_of_family && kept.iter().any(|other| related(&one, other))) {
+            kept.push(one);
+        }
+    }
+    kept
 }
 
 fn equilibrium<M: RodModel + Clone>(
@@ -108,7 +131,7 @@ fn equilibrium<M: RodModel + Clone>(
     units: Units,
 ) -> ElasticaEquilibrium<M> {
     let Found { shape, force, residual } = found;
-    let (unstable_directions, is_critical) = unstable_directions(problem, &shape, force);
+    let (unstable_directions, critical) = unstable_directions(problem, &shape, force);
     let total = [problem.total[0] + force[0], problem.total[1] + force[1]];
     let work = work(problem, &shape) * units.energy;
     let tip = tip_load(problem, &shape, force, units);
@@ -127,8 +150,9 @@ fn equilibrium<M: RodModel + Clone>(
         tip,
         bending_energy,
         potential_energy: bending_energy - work,
-        stable: unstable_directions == 0 && !is_critical,
+        stable: unstable_directions == 0 && !critical,
         unstable_directions,
+        critical,
         residual,
         shape,
     }
@@ -165,5 +189,29 @@ fn work<M: RodModel>(problem: &Problem<'_, M>, shape: &Shape<'_, M>) -> f64 {
     match problem.tip.phi {
         TipEnd::Loaded(moment) => forces + moment * (shape.cut(1.0).phi - rest(1.0).phi),
         TipEnd::Held(_) => forces,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rod::Rod;
+
+    #[test]
+    fn a_family_is_one_critical_equilibrium() {
+        // a closed loop slides along itself
+        let clamp = Pose { x: 0.2, y: -0.1, phi: 0.7 };
+        let found = elastica_equilibria(&Rod::new(1.0, 1.0).unwrap(), clamp, &[], &Tip::pose(clamp)).unwrap();
+        let first = &found[0];
+        assert!(first.critical && !first.stable && first.unstable_directions == 0);
+        let energies: Vec<f64> = found.iter().map(|one| one.potential_energy).collect();
+        assert!(energies.windows(2).all(|pair| pair[1] > 1.001 * pair[0]), "{energies:?}");
+    }
+
+    #[test]
+    fn where_nothing_is_found_the_message_says_where_the_tip_is() {
+        let message = |distance| ElasticaError::NotFound { most: 1.0, dimensionless: 1.0, distance }.to_string();
+        assert!(message(0.95).contains("0.950 L from the clamp, expected a tip further from full extension"));
+        assert!(!message(0.71).contains("full extension"));
     }
 }

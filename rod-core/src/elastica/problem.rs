@@ -107,6 +107,12 @@ impl<'a, M: RodModel> Problem<'a, M> {
         }
     }
 
+    /// Distance of the held tip from the clamp along the coordinates that are held, L.
+    pub fn distance(&self) -> f64 {
+        let held = |end: TipEnd, clamp: f64| if let TipEnd::Held(value) = end { value - clamp } else { 0.0 };
+        held(self.tip.x, self.clamp.x).hypot(held(self.tip.y, self.clamp.y))
+    }
+
     /// The phase of the given forces, int sqrt(force / EI) ds: the logarithm of how much the tip depends on the clamp.
     pub fn phase(&self) -> f64 {
         let on = |(ends, [fx, fy]): (&[f64], &[f64; 2])| fx.hypot(*fy).sqrt() * integral(self.rod, ends, f64::sqrt);

@@ -6,6 +6,8 @@ use crate::solve::find_root;
 const SCAN: usize = 128;
 /// Most halvings of an interval of the scan.
 const MOST_HALVINGS: u32 = 16;
+/// Intervals of a coarse scan, and most halvings of one of them.
+const COARSE: (usize, u32) = (48, 5);
 /// Most evaluations of the scan.
 const MOST_EVALUATIONS: usize = 40_000;
 /// Deviation of the middle of an interval from the cubic through its ends, relative to the values there, at which the interval is resolved.
@@ -16,6 +18,8 @@ const DOUBLE: f64 = 1e-12;
 /// The scan of a function of one variable, which gives its value and derivative.
 pub(super) struct Scan<F> {
     f: F,
+    intervals: usize,
+    most_halvings: u32,
     roots: Vec<f64>,
     evaluations: usize,
 }
@@ -29,14 +33,19 @@ struct At {
 
 impl<F: Fn(f64) -> (f64, f64)> Scan<F> {
     pub fn new(f: F) -> Self {
-        Self { f, roots: Vec::new(), evaluations: 0 }
+        Self { f, intervals: SCAN, most_halvings: MOST_HALVINGS, roots: Vec::new(), evaluations: 0 }
+    }
+
+    /// One that may miss roots next to each other, but takes some hundred evaluations only.
+    pub fn coarse(f: F) -> Self {
+        Self { intervals: COARSE.0, most_halvings: COARSE.1, ..Self::new(f) }
     }
 
     /// All roots between two places, in order.
     pub fn all(mut self, from: f64, to: f64) -> Vec<f64> {
         let mut before = self.at(from);
-        for k in 1..=SCAN {
-            let next = self.at(from + (to - from) * k as f64 / SCAN as f64);
+        for k in 1..=self.intervals {
+            let next = self.at(from + (to - from) * k as f64 / self.intervals as f64);
             self.refine(before, next, 0);
             before = next;
         }
@@ -58,7 +67,7 @@ impl<F: Fn(f64) -> (f64, f64)> Scan<F> {
         let steepest = a.slope.abs().max(b.slope.abs()).max(middle.slope.abs());
         let is_resolved = (middle.value - value).abs() <= RESOLVED * h * steepest
             && (middle.slope - slope).abs() <= 5.0 * RESOLVED * steepest;
-        if is_resolved || halvings >= MOST_HALVINGS || self.evaluations > MOST_EVALUATIONS {
+        if is_resolved || halvings >= self.most_halvings || self.evaluations > MOST_EVALUATIONS {
             self.take(a, middle);
             self.take(middle, b);
         } else {

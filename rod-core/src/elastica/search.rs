@@ -2,13 +2,14 @@
 //!
 //! Where the tip's place is not held, one number is unknown, the moment at the clamp, and it is bounded: the roots are found by an
 //! adaptive scan with the exact derivative. Where the place is held, Newton's method starts from a grid of clamp moments and support
-//! forces, from each node whose first step stays in its neighbourhood. A tip near full extension needs forces beyond the grid: its
+//! forces, from each node whose first step stays in its neighbourhood. Where a single coordinate of it is held, Newton's method also starts
+//! from the equilibria without it under a series of support forces. A tip near full extension needs forces beyond the grid: its
 //! equilibria are followed from a tip nearer to the clamp, and those under strong loads from weaker ones.
 
 use super::phase::in_sections;
 use super::problem::{Multiple, Problem, Shape, Single, Unknowns, shot};
 use super::scan::Scan;
-use super::tip::{Tip, TipEnd};
+use super::tip::{STRETCHED, Tip, TipEnd};
 use crate::model::RodModel;
 use crate::solve::{NewtonOptions, NewtonWorkspace, System, linear, solve};
 use std::f64::consts::TAU;
@@ -38,6 +39,9 @@ struct Grid {
 /// Forces up to 225 E I / L^2 of a uniform rod hold the first four modes of a rod between two clamps. A grid with steps
 /// a quarter as large finds no more in 100 random problems (the test below).
 const GRID: Grid = Grid { phase: 1.0, phases: 15, directions: 16, moments: 1.5, near: 3.0 };
+/// The forces of starts that fulfil all equations but that of a single held coordinate. Its equilibria lie on the curves of these in the plane
+/// of moment and force; the grid alone misses some on steep parts of them.
+const CURVES: Grid = Grid { phase: 0.3, phases: 50, directions: 2, moments: 0.0, near: 4.0 };
 /// Largest turn of the tip between two starts of a rod that varies, rad, and most starts on either side of 0 for that.
 const MOST_APART: f64 = 1.2;
 const MOST_MOMENTS: f64 = 200.0;
@@ -48,8 +52,7 @@ pub(super) const LARGEST_PHASE: f64 = GRID.phase * GRID.phases as f64;
 /// Relative difference up to which two solutions are the same.
 const SAME: f64 = 1e-6;
 
-/// Distance of a held tip from the clamp (L) from which on equilibria are followed from a tip nearer to it, and its distance there.
-const STRETCHED: f64 = 0.9;
+/// Distance of the tip (L) from which the equilibria of one near full extension are followed.
 const SLACK: f64 = 0.8;
 /// Phase of the given forces (rad) up to which single shooting resolves all equilibria: those under larger ones are followed, too.
 const MODERATE: f64 = 7.0;
@@ -190,41 +193,79 @@ fn of_candidates<'a, M: RodModel, N: RodModel>(
     candidates.into_iter().filter_map(polish).collect()
 }
 
+/// Newton's method from many starts.
+struct Starts<'w, 'p, 'a, M> {
+    system: Single<'p, 'a, M>,
+    workspace: &'w mut NewtonWorkspace,
+    residual: Vec<f64>,
+    jacobian: Vec<f64>,
+    inverse: Vec<f64>,
+    step: Vec<f64>,
+    solutions: Vec<Vec<f64>>,
+}
+
+impl<'w, 'p, 'a, M: RodModel> Starts<'w, 'p, 'a, M> {
+    fn new(problem: &'p Problem<'a, M>, workspace: &'w mut NewtonWorkspace) -> Self {
+        let system = Single(problem);
+        let n = system.dimension();
+        let square = || vec![0.0; n * n];
+        let (jacobian, inverse, solutions) = (square(), square(), Vec::new());
+        Self { system, workspace, residual: vec![0.0; n], jacobian, inverse, step: vec![0.0; n], solutions }
+    }
+
+    /// Solves from a start whose first step is not longer than `near`: in the moment and in each force.
+    fn solve_from(&mut self, start: &Unknowns, near: [f64; 2]) {
+        let Self { system, workspace, residual, jacobian, inverse, step, solutions } = self;
+        let options = NewtonOptions { max_iterations: 25, least_damping: 0.05, ..NewtonOptions::default() };
+        let mut u = system.vector(start);
+        system.evaluate(&u, residual, Some(jacobian));
+        if !linear::invert(u.len(), jacobian, inverse) {
+            return;
+        }
+        linear::multiply(inverse, residual, -1.0, step);
+        let (moment, forces) = (step[0].abs(), step[1..].iter().map(|df| df.abs()));
+        if moment <= near[0]
+            && forces.fold(0.0, f64::max) <= near[1]
+            && solve(system, &mut u, &options, workspace).status.is_solved()
+            && !solutions.iter().any(|known| same(known, &u))
+        {
+            solutions.push(u);
+        }
+    }
+}
+
 /// The solutions of single shooting.
 fn candidates<M: RodModel>(problem: &Problem<'_, M>, grid: &Grid, workspace: &mut NewtonWorkspace) -> Vec<Unknowns> {
-    let system = Single(problem);
-    let n = system.dimension();
-    let options = NewtonOptions { max_iterations: 25, least_damping: 0.05, ..NewtonOptions::default() };
+    let mut starts = Starts::new(problem, workspace);
     let mean = mean_moment(problem);
     let turn = (mean * problem.compliance).abs();
-    let (mut residual, mut jacobian, mut inverse) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
-    let (mut step, mut solutions): (Vec<f64>, Vec<Vec<f64>>) = (vec![0.0; n], Vec::new());
-    for (force, cell) in forces(problem, grid) {
+    let most_moment = |force: [f64; 2]| {
         let size = problem.size + force[0].hypot(force[1]);
         // of a rod that softens towards the tip the moment obeys the bound of a uniform one; of others it is a guess
         let softening = (mean * mean + 4.0 * size / problem.least_compliance).sqrt();
-        let bound = 1.05 * bound(problem, mean, size).min(softening) + 0.05 / problem.compliance;
+        1.05 * bound(problem, mean, size).min(softening) + 0.05 / problem.compliance
+    };
+    for (force, cell) in forces(problem, grid) {
+        let (size, bound) = (problem.size + force[0].hypot(force[1]), most_moment(force));
         let by_phase = 4.0 + grid.moments * problem.root_compliance * size.sqrt() + turn;
         // an odd number of starts: a straight rod is among them
         let half = by_phase.max((bound * problem.compliance / MOST_APART).min(MOST_MOMENTS)).ceil();
         for k in -(half as i32)..=half as i32 {
-            let start = system.vector(&Unknowns { moment: bound * f64::from(k) / half, force });
-            system.evaluate(&start, &mut residual, Some(&mut jacobian));
-            if !linear::invert(n, &jacobian, &mut inverse) {
-                continue;
-            }
-            linear::multiply(&inverse, &residual, -1.0, &mut step);
-            let (moment, forces) = (step[0].abs(), step[1..].iter().map(|df| df.abs()));
-            let is_near = moment <= grid.near * bound / half && forces.fold(0.0, f64::max) <= grid.near * cell;
-            let mut u = start;
-            if is_near
-                && solve(&system, &mut u, &options, workspace).status.is_solved()
-                && !solutions.iter().any(|known| same(known, &u))
-            {
-                solutions.push(u);
+            let start = Unknowns { moment: bound * f64::from(k) / half, force };
+            starts.solve_from(&start, [grid.near * bound / half, grid.near * cell]);
+        }
+    }
+    if problem.held().count() == 1 {
+        // without the held coordinate, the equilibria under each force of the support are the roots of a function of one variable
+        for (force, cell) in forces(problem, &CURVES) {
+            let bound = most_moment(force);
+            let miss = |moment| problem.last_miss(&Unknowns { moment, force });
+            for moment in Scan::coarse(miss).all(-bound, bound) {
+                starts.solve_from(&Unknowns { moment, force }, [f64::INFINITY, CURVES.near * cell]);
             }
         }
     }
+    let Starts { system, solutions, .. } = starts;
     // beyond the grid it is chance which ones are found
     let most = (grid.phase * grid.phases as f64 / problem.root_compliance).powi(2);
     let unknowns = solutions.iter().map(|u| system.unknowns(u));
@@ -266,7 +307,7 @@ fn slackened<'a, M: RodModel>(problem: &Problem<'a, M>) -> Option<impl Fn(f64) -
     let clamp = problem.clamp;
     let from_clamp = |end: TipEnd, clamp: f64| if let TipEnd::Held(value) = end { value - clamp } else { 0.0 };
     let (dx, dy) = (from_clamp(problem.tip.x, clamp.x), from_clamp(problem.tip.y, clamp.y));
-    let away = dx.hypot(dy);
+    let away = problem.distance();
     // the distance from full extension goes down geometrically
     let at = move |t: f64| {
         let distance = 1.0 - (1.0 - SLACK).powf(1.0 - t) * (1.0 - away).powf(t);
@@ -309,8 +350,10 @@ fn followed<'a, M: RodModel>(
 mod tests {
     use super::*;
     use crate::elastica::tip::DeadLoad;
-    use crate::model::Uniform;
+    use crate::model::{RodSection, Uniform};
+    use crate::physical::PhysicalRod;
     use crate::pose::Pose;
+    use crate::rod::Rod;
     use crate::units::Units;
 
     /// A grid with steps of about a quarter.
@@ -337,6 +380,31 @@ mod tests {
             assert!(fine.len() >= 3 && coarse.len() == fine.len(), "{coarse:?} {fine:?}");
             assert!(fine.iter().all(|one| coarse.iter().any(|other| same(one, other))), "{coarse:?} {fine:?}");
         }
+    }
+
+    fn moments<M: RodModel>(problem: &Problem<'_, M>) -> Vec<f64> {
+        equilibria(problem).iter().map(|one| one.shape.nodes[0].start.moment).collect()
+    }
+
+    /// One coordinate is held, and Newton's method from the grid missed the equilibrium: a uniform rod and one of two sections.
+    #[test]
+    fn steep_curves_of_a_tip_with_one_coordinate_held_are_found() {
+        let clamp = Pose { x: -0.346_487_061_378_143_2, y: -0.802_957_742_295_170_1, phi: -0.637_630_384_051_832_3 };
+        let load = DeadLoad { s: 0.579_383_480_596_781_7, fx: 2.108_233_840_825_6, fy: -1.942_956_750_671_231_7 };
+        let tip = Tip {
+            x: TipEnd::Held(-0.873_721_393_929_565),
+            y: TipEnd::Loaded(-0.202_434_196_729_629_56),
+            phi: TipEnd::Held(1.576_940_858_871_673_3),
+        };
+        let found = moments(&Problem::new(&Uniform, Units::ONE, clamp, &[load], &tip));
+        assert!(found.iter().any(|moment| (moment + 19.186).abs() < 1e-2), "{found:?}");
+        let section =
+            |length, bending_stiffness, natural_curvature| RodSection { length, bending_stiffness, natural_curvature };
+        let rod = Rod::sections(1.0, &[section(0.396, 1.0, 0.033), section(0.604, 0.236, 0.031)]).unwrap();
+        let tip = Tip { x: TipEnd::Held(-0.366_407), y: TipEnd::Loaded(-33.260_911), phi: TipEnd::Loaded(-2.246_97) };
+        let clamp = Pose { x: 0.0, y: 0.0, phi: 0.3 };
+        let found = moments(&Problem::new(rod.model(), rod.units(), clamp, &[], &tip));
+        assert!(found.iter().any(|moment| (moment + 13.13).abs() < 1e-2), "{found:?}");
     }
 
     /// The numbers of docs/elastica.md: 100 random problems with up to two loads and a tip that is pinned or clamped.

@@ -4,14 +4,17 @@ use crate::clamp::Clamp;
 use crate::physical::PhysicalRod;
 use crate::pose::Pose;
 use crate::units::Units;
+use std::f64::consts::TAU;
 
 /// Largest sum of all forces, E I / L^2. The shape depends on the moment at the clamp by up to e^sqrt(force): beyond this
 /// value double precision does not resolve the moments that the search tries.
 const MOST_FORCE: f64 = 1e3;
 /// Largest moment at the tip, E I / L: more than 10 turns of a uniform rod.
 const MOST_MOMENT: f64 = 1e2;
-/// Largest angle between clamp and held tip, rad: the limit for poses of a clamp.
-const MOST_TURN: f64 = 1e2;
+/// Largest angle between clamp and held tip, turns. More of them is an angle in degrees, most likely.
+const MOST_TURNS: f64 = 4.0;
+/// Distance of the held tip from the clamp, L, from which on it is near full extension, where the forces are large.
+pub(super) const STRETCHED: f64 = 0.9;
 /// Distance from the clamp of a held tip, L, from which on a rod would have to be straight: its tip force is not determined.
 const STRAIGHT: f64 = 1.0 - 1e-9;
 
@@ -110,15 +113,27 @@ pub enum ElasticaError {
     },
     /// No start of the search led to an equilibrium.
     #[error(
-        "no equilibrium found with forces of the tip support up to {most} N ({dimensionless} E I / L^2), expected a tip further from full \
-         extension, or smaller loads"
+        "no equilibrium found with forces of the tip support up to {most} N ({dimensionless} E I / L^2) and the tip {distance:.3} L from the \
+         clamp, expected {}",
+        remedy(*.distance)
     )]
     NotFound {
         /// Largest force that the search tries, N.
         most: f64,
         /// The same, E I / L^2.
         dimensionless: f64,
+        /// Distance of the held tip from the clamp, L.
+        distance: f64,
     },
+}
+
+/// What may help where nothing is found.
+fn remedy(distance: f64) -> &'static str {
+    if distance > STRETCHED {
+        "a tip further from full extension, or smaller loads"
+    } else {
+        "smaller loads, a tip with less held, or a rod whose stiffness varies less: equilibria of this one may need larger forces"
+    }
 }
 
 fn wrong<T>(argument: ElasticaArgument, message: String) -> Result<T, ElasticaError> {
@@ -183,8 +198,9 @@ fn check_tip(units: Units, pose: Pose, tip: &Tip) -> Result<(), ElasticaError> {
         let message = format!("{place}, expected less than {:?} m, the length of the rod", units.length);
         return wrong(argument, message);
     }
-    if let Some(phi) = held(tip.phi).filter(|phi| (phi - pose.phi).abs() > MOST_TURN) {
-        let message = format!("phi is {phi:?} rad, expected at most {MOST_TURN} rad from that of the clamp");
+    if let Some(phi) = held(tip.phi).filter(|phi| (phi - pose.phi).abs() > MOST_TURNS * TAU) {
+        let turns = (phi - pose.phi).abs() / TAU;
+        let message = format!("phi is {phi:?} rad, {turns:.1} turns from the clamp, expected at most {MOST_TURNS}");
         return wrong(argument, message);
     }
     if let TipEnd::Loaded(moment) = tip.phi {

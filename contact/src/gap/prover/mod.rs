@@ -31,7 +31,8 @@ const PROVEN: f64 = 10.0;
 const LARGEST_TURN: f64 = 0.5;
 /// Bound (L) at or below which an interval may touch the contour. The rod beyond it may be on the other side, which is tested.
 const GATE: f64 = 1e-12;
-/// Largest number of runs whose boxes an interval may meet. With more it is halved first.
+/// Largest number of runs shorter than an interval whose boxes it may meet. With more it is halved first. Longer runs do not count: where
+/// they overlap, halves meet as many of them, and halving would not end.
 const CROWD: usize = 12;
 /// Largest difference of the smallest gap seen of a free rod and the proven one, relative. Smaller values cost more halvings.
 const BESIDE: f64 = 1e-3;
@@ -323,20 +324,23 @@ impl<'a, M: RodModel> Search<'a, M> {
         }
     }
 
-    /// Clears an interval of the runs near it, halving it where they are many.
+    /// Clears an interval of the runs near it, halving it where short ones are many.
     fn in_crowd(&mut self, i: usize) {
         let mut parts = vec![interval(self.rod, self.shape, i)];
         while let Some(part) = parts.pop() {
             let reach = self.least().max(0.0);
-            let mut near: SmallVec<[usize; CROWD]> = SmallVec::new();
+            let (mut near, mut short): (SmallVec<[usize; CROWD]>, usize) = (SmallVec::new(), 0);
             // below the reach itself no part meets fewer of them
-            let halve = part.length > SHORTEST.max(0.1 * reach);
+            let may_halve = part.length > SHORTEST.max(0.1 * reach);
             self.world.runs_near(part.bounds(reach), |run| {
-                if (near.len() <= CROWD || !halve) && !part.misses(&self.world.run_bounds(run), reach) {
+                let bounds = self.world.run_bounds(run);
+                if (short <= CROWD || !may_halve) && !part.misses(&bounds, reach) {
                     near.push(run);
+                    let sides = [0, 1].map(|axis| bounds.max[axis] - bounds.min[axis]);
+                    short += usize::from(sides[0].max(sides[1]) < part.length);
                 }
             });
-            if near.len() > CROWD && halve {
+            if short > CROWD && may_halve {
                 parts.extend(part.split(self.rod, &self.shape.segments[part.segment], 0.5 * (part.from.s + part.to.s)));
                 continue;
             }
