@@ -223,7 +223,7 @@ mod tests {
         let pressed = |count: usize, apart: f64| {
             let discs: Vec<Composite> = (0..count).map(|k| disc(apart * k as f64)).collect();
             let mut rod = Follower::new(&rod, &discs, clamp(0.8)).unwrap();
-            rod.to(clamp(0.2)).unwrap();
+            rod.to(clamp(0.1)).unwrap();
             rod.state().reactions
         };
         // the rod comes from the right and touches the last one of them only
