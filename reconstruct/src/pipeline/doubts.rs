@@ -16,8 +16,10 @@ const MISFIT: f64 = 0.2;
 const UNANSWERED: f64 = 0.25;
 /// Share of all contacts without a contact point that is reported.
 const LOST: f64 = 0.75;
-/// Share of wrong labels to be expected that is reported.
+/// Share of wrong labels to be expected that is reported, and of those of a contour that explains the recording: these allow for shared errors of a
+/// laboratory, and are expected at 1 % of the labels of ordinary scans.
 const UNCERTAIN: f64 = 0.01;
+const UNDETERMINED: f64 = 0.03;
 /// Part of the wrong labels to be expected that a run has which is named.
 const MUCH: f64 = 0.1;
 /// Share of the tangential path along which the rod slides against friction that is reported: the rest is noise of the rates.
@@ -63,7 +65,7 @@ impl Reconstruction {
                 from: run.start,
                 to: run.end,
             };
-            findings.extend(self.least_sure().map(finding));
+            findings.extend(self.least_sure(UNCERTAIN).map(finding));
         }
         findings.extend(self.kinks_within());
         if let Some(from) = self.readings.iter().position(is_frozen) {
@@ -87,12 +89,12 @@ impl Reconstruction {
 
     /// The labels that a contour leaves open which explains the recording ([`Reconstruction::adopt`]), where there are many.
     pub fn undetermined(&self) -> Option<Finding> {
-        let (share, label, run) = self.least_sure()?;
+        let (share, label, run) = self.least_sure(UNDETERMINED)?;
         Some(Finding::Undetermined { share, label, from: run.start, to: run.end })
     }
 
-    /// The share of wrong labels to be expected, where it is large, with the run that is least sure.
-    fn least_sure(&self) -> Option<(f64, Label, Range<usize>)> {
+    /// The share of wrong labels to be expected, where it exceeds `least`, with the run that is least sure.
+    fn least_sure(&self, least: f64) -> Option<(f64, Label, Range<usize>)> {
         let wrong = |samples: &[Reading]| {
             let used = samples.iter().filter(|reading| !matches!(reading.touch, Err(Reason::Fault(_))));
             used.map(|reading| 1.0 - reading.probability).sum::<f64>()
@@ -104,7 +106,7 @@ impl Reconstruction {
         let counted = counted.filter(|(wrong, ..)| *wrong > MUCH * share * self.readings.len() as f64);
         let doubt = |run: &Range<usize>, wrong: f64| wrong / run.len().max(1) as f64;
         let (_, run, label) = counted.max_by(|u, v| doubt(&u.1, u.0).total_cmp(&doubt(&v.1, v.0)))?;
-        (share > UNCERTAIN).then_some((share, label, run))
+        (share > least).then_some((share, label, run))
     }
 }
 
