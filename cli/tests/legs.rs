@@ -162,5 +162,5 @@ fn a_table_is_no_list_of_legs() {
     let one = text.match_indices("[[sweep.leg]]").nth(1).map(|(second, _)| &text[..second]).unwrap();
     let error =
         Scene::parse("legs.toml".as_ref(), &one.replace("[[sweep.leg]]", "[sweep.leg]")).unwrap_err().to_string();
-    assert!(error.contains("expected [[sweep.leg]] before each leg"), "{error}");
+    assert!(error.contains("expected a list of tables: [[sweep.leg]] with two brackets"), "{error}");
 }

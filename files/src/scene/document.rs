@@ -172,10 +172,6 @@ pub(super) fn document(mut table: Spanned<DeTable<'_>>) -> Result<SceneDocument,
         }
         _ => Vec::new(),
     };
-    let sweep = table.get_ref().get("sweep").and_then(|sweep| sweep.get_ref().as_table());
-    if let Some(leg) = sweep.and_then(|sweep| sweep.get("leg")).filter(|leg| leg.get_ref().is_table()) {
-        return Err(Fault::new(leg.span(), "a table where a list belongs, expected [[sweep.leg]] before each leg"));
-    }
     let tables = SceneTables::deserialize(toml::de::Deserializer::from(table))?;
     Ok(SceneDocument { tables, contour, objects })
 }

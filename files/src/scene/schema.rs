@@ -229,7 +229,13 @@ fn check_list(table: &DeTable<'_>, name: &str) -> Result<(), Fault> {
 }
 
 fn single(name: &str) -> String {
-    format!("{name} is a table, expected a list of tables: [[{name}]] with two brackets")
+    let header = match name {
+        "leg" => "sweep.leg",
+        "section" => "rod.section",
+        "piece" => "contour.piece]] or [[object.piece",
+        name => name,
+    };
+    format!("{name} is a table, expected a list of tables: [[{header}]] with two brackets")
 }
 
 fn of_rod(table: &Spanned<DeTable<'_>>, unless: &[MissingUnless]) -> Result<Quantities, Fault> {
