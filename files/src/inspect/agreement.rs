@@ -24,6 +24,8 @@ pub(super) struct Agreement {
     pub explained: f64,
     /// Share that some single contact explains.
     pub possible: f64,
+    /// The farthest contact but for a twentieth, in lengths of the rod.
+    pub reach: f64,
     /// Steps of the scan in contact: work of the clamp along x, y and its angle, and the change of the elastic energy, J.
     steps: Vec<[f64; 4]>,
 }
@@ -53,6 +55,9 @@ pub(super) fn agreement(samples: &[Sample], noise: [f64; 2], stiffness: f64, len
         possible(touched)
             && (touched.excess.abs() <= touched.slack || (touched.s / length - 1.0).abs() <= touched.reach)
     });
+    let mut places: Vec<f64> = contacts.iter().map(|touched| touched.s).filter(|s| s.is_finite()).collect();
+    places.sort_unstable_by(f64::total_cmp);
+    let reach = places.get(places.len() * 19 / 20)? / length;
     let energies: Vec<f64> = found
         .iter()
         .zip(samples)
@@ -61,7 +66,7 @@ pub(super) fn agreement(samples: &[Sample], noise: [f64; 2], stiffness: f64, len
         })
         .collect();
     let contact: Vec<bool> = found.iter().map(Option::is_some).collect();
-    Some(Agreement { explained, possible: share(&possible), steps: steps(samples, &contact, &energies) })
+    Some(Agreement { explained, possible: share(&possible), reach, steps: steps(samples, &contact, &energies) })
 }
 
 /// An average in contact.

@@ -20,8 +20,9 @@ use vibrissa::rod::Reactions;
 const MOST: usize = 300;
 /// Share of the averages that satisfy one of the conditions under a hypothesis that explains the recording, at least.
 const SHARE: f64 = 0.7;
-/// The concordance of work and energy then, at least. Work ten times too large has 0.2, and 2.5 times 0.7.
-const WEAK_WORK: f64 = 0.3;
+/// The concordance of work and energy then, at least. Work ten times too large has 0.2, and 2.5 times 0.7; the best of wrong hypotheses had
+/// 0.44 where phi0 was wrong by 90 degrees, and where all reactions were twice too large.
+const WEAK_WORK: f64 = 0.5;
 /// With this concordance the conditions need not be satisfied: friction, a taper and springs spoil them, the work hardly.
 const WORK: f64 = 0.7;
 /// Number of independent observations that each of the three measures of agreement is worth. Consecutive samples are not independent,
@@ -29,12 +30,19 @@ const WORK: f64 = 0.7;
 const INDEPENDENT: f64 = 10.0;
 /// Logarithm of the ratio of the probabilities of the best and the next hypothesis from which on the best is relied on: 20 to 1.
 pub(super) const MARGIN: f64 = 3.0;
+/// Logarithm of a prior probability below which the best hypothesis is a question: so many changes may fit by chance.
+pub(super) const UNLIKELY: f64 = -5.0;
 /// Logarithm of the prior probability that a coordinate or the angle of the clamp is reversed.
 const REVERSED: f64 = -3.5;
 /// Logarithm of the probability that a hypothesis is right that does not explain the recording: more than a file's word for a unit is worth.
 const MISFIT: f64 = -10.0;
 /// Standard deviation of the logarithm of a rod's stiffness, as far as its file knows it.
 const STIFFNESS: f64 = 0.3;
+/// Standard deviation of the logarithm of the farthest contact, in lengths of the rod: in units in which forces are k^2, moments k and ways 1/k
+/// times as large, tangential contacts satisfy all conditions, but are at 1/k of the place.
+const REACH: f64 = 1.0;
+/// A recording all of whose contacts are nearer to the clamp than this, in lengths of the rod, is in other units, or of another rod.
+const NEAREST: f64 = 0.1;
 /// The unit may be another one where the slope of the line is within this factor of that of the rod in that unit.
 pub(super) const NEAR: f64 = 2.0;
 /// The same for the largest m0z^2 / (2 |F|), which has more scatter.
@@ -135,6 +143,8 @@ pub(super) struct Rated {
     pub explained: f64,
     /// Share that some single contact explains.
     pub possible: f64,
+    /// The farthest contact, in lengths of the rod.
+    pub reach: f64,
     /// Concordance of the work of the clamp and the change of the energy.
     pub energy: f64,
     /// Bending stiffness of the line over that of the rod, in these units; 1 without either.
@@ -146,14 +156,14 @@ pub(super) struct Rated {
 impl Rated {
     /// Logarithm of the posterior probability, but for a constant.
     pub fn score(&self) -> f64 {
-        let stiffness = 0.5 * (self.stiffness.ln() / STIFFNESS).powi(2);
+        let sizes = 0.5 * (self.stiffness.ln() / STIFFNESS).powi(2) + 0.5 * (self.reach.ln() / REACH).powi(2);
         let misfit = if self.fits() { 0.0 } else { MISFIT };
-        INDEPENDENT * (self.explained + self.possible + self.energy) + self.prior - stiffness + misfit
+        INDEPENDENT * (self.explained + self.possible + self.energy) + self.prior - sizes + misfit
     }
 
     /// Whether it explains the recording at all.
     pub fn fits(&self) -> bool {
-        self.explained >= SHARE && self.energy >= WEAK_WORK || self.energy >= WORK
+        (self.explained >= SHARE && self.energy >= WEAK_WORK || self.energy >= WORK) && self.reach > NEAREST
     }
 }
 
@@ -424,6 +434,7 @@ impl Shared<'_> {
                         hypothesis: Hypothesis { frame, reversed, units: [length, self.angle, force, moment] },
                         explained: self.agreement.explained,
                         possible: self.agreement.possible,
+                        reach: self.agreement.reach,
                         energy,
                         stiffness: self.stiffness,
                         prior,

@@ -3,7 +3,7 @@
 use super::InspectOptions;
 use super::binary;
 use super::layout::layout;
-use super::motion::motion;
+use super::motion::{MOTION, motion};
 use super::physics::{Measured, Says, unit_question};
 use super::proposal::{Proposal, name_of};
 use super::report::{Certainty, InspectedColumn, InspectedFile, Question};
@@ -94,7 +94,7 @@ impl Look {
         .to_owned();
         rows(&mut self.report, &table, &guess);
         if let Some(path) = poses(&table, &guess).and_then(|poses| motion(&poses)) {
-            self.report.fact("motion of the clamp", path);
+            self.report.fact(MOTION, path);
         }
         self.report.columns = guess.columns.iter().map(|column| described(&table, column)).collect();
         if self.content == Content::Frames {
@@ -243,7 +243,7 @@ fn ask_unit(column: &ColumnGuess, name: &str, dimension: Dimension) -> Question 
     let units: &[&str] = match dimension {
         Dimension::Force => &["N", "mN"],
         Dimension::Torque => &["N m", "mN m", "N mm"],
-        Dimension::Length => &["m", "mm"],
+        Dimension::Length => &["m", "mm", "cm", "in"],
         Dimension::Angle => &["rad", "deg"],
         Dimension::Time => &["s", "ms"],
         Dimension::Temperature => &["degC"],

@@ -1,12 +1,15 @@
 //! Axes, signs and units of a recording, by the physics, in words and as options.
 
-use super::frame::{Before, Candidate, DIMENSIONS, Hypothesis, MARGIN, NEAR, Rated, ReactionFrame, Verdict, verdict};
+use super::frame::{
+    Before, Candidate, DIMENSIONS, Hypothesis, MARGIN, NEAR, Rated, ReactionFrame, UNLIKELY, Verdict, verdict,
+};
+use super::motion::{MOTION, motion};
 use super::proposal::Proposal;
 use super::report::{Certainty, InspectedFile, Question};
 use super::shell_word::quoted;
 use vibrissa::hw::Unit;
 use vibrissa::hw::recording::Role;
-use vibrissa::{Rod, Sample};
+use vibrissa::{Pose, Rod, Sample};
 
 /// Relative difference between the stiffness by the recording and that of the rod from which on it is reported.
 const STIFFNESS: f64 = 0.03;
@@ -146,10 +149,13 @@ pub(super) fn physics(
             if best.hypothesis.units[dimension] != 0 && says == Says::File {
                 contradicted(file, of().map(|column| column.name.as_str()).collect(), unit);
             }
-        } else if !found.are_units_decided[dimension] && matches!(says, Says::Values | Says::Name) && !is_given {
+        } else if (!found.are_units_decided[dimension] || best.hypothesis.units[dimension] != 0)
+            && says > Says::Nothing
+            && !is_given
+        {
             for column in of() {
                 if !file.questions.iter().any(|question| question.text.starts_with(&unit_question(&column.name))) {
-                    let text = format!("{} several fit the physics", unit_question(&column.name));
+                    let text = format!("{} the physics fits others, too, or better", unit_question(&column.name));
                     let answer =
                         |one: &Candidate| format!("--unit {}", quoted(&format!("{}={}", column.name, one.unit)));
                     let answers = units[dimension].iter().map(answer).collect();
@@ -157,6 +163,10 @@ pub(super) fn physics(
                 }
             }
         }
+    }
+    if best.prior < UNLIKELY && file.questions.is_empty() && !is_given {
+        choose(file, &found, columns, &units);
+        return None;
     }
     if let Some(rod) = rod
         && !(1.0 / NEAR..NEAR).contains(&best.stiffness)
@@ -329,6 +339,7 @@ impl Preferred {
         file: &mut InspectedFile,
         proposal: &mut Proposal,
         columns: &[Measured; 6],
+        samples: &[Sample],
         only: std::ops::Range<usize>,
     ) {
         let mut changed = Vec::new();
@@ -363,6 +374,18 @@ impl Preferred {
                 changed.push(format!("{} = {signed} of `{}`", column.role, column.name));
             }
             proposal.set_unit(&column.name, signed);
+        }
+        let pose = |sample: &Sample| {
+            let sign = |k: usize| if self.hypothesis.reversed[k] { -1.0 } else { 1.0 };
+            let one = |of: usize| self.units[of][self.hypothesis.units[of]].factor;
+            let Pose { x, y, phi } = sample.pose;
+            Pose { x: sign(0) * one(0) * x, y: sign(1) * one(0) * y, phi: sign(2) * one(1) * phi }
+        };
+        let path = motion(&samples.iter().map(pose).collect::<Vec<_>>());
+        if let Some(fact) = file.facts.iter_mut().find(|fact| fact.what == MOTION)
+            && let Some(path) = path
+        {
+            fact.found = path;
         }
         if !changed.is_empty() {
             file.fact("CHANGED", format!("against the names and units of the columns: {}", changed.join(", ")));

@@ -21,7 +21,7 @@ pub(super) fn reactions(look: &mut Look, options: &InspectOptions) -> ReadComman
         let is_own = reactions().all(|column| column.is_recognized) || reactions().any(|column| column.is_given);
         let found = physics(&mut look.report, &samples, &columns, is_own, rod(options).map(|rod| &rod.rod));
         if let Some(found) = found {
-            found.apply(&mut look.report, &mut look.proposal, &columns, 0..6);
+            found.apply(&mut look.report, &mut look.proposal, &columns, &samples, 0..6);
         }
     }
     let words =

@@ -95,7 +95,7 @@ pub(super) fn sensor(
                 if let Some(found) = found {
                     columns[..3].iter_mut().for_each(|column| column.name = column.name.replacen("stage:", "", 1));
                     let stage = &mut looks[stage];
-                    found.apply(&mut stage.report, &mut stage.proposal, &columns, 0..3);
+                    found.apply(&mut stage.report, &mut stage.proposal, &columns, &samples, 0..3);
                     of_stage = Some(stage.proposal.clone());
                     setup.frame = Some(found.frame);
                 } else {
