@@ -7,6 +7,9 @@ pub fn counted(count: usize, one: &str) -> String {
     format!("{count} {one}{}", if count == 1 { "" } else { "s" })
 }
 
+/// Most characters of a cell; what is longer is shortened.
+const WIDEST: usize = 200;
+
 /// Rows of text in columns: words to the left, numbers to the right.
 pub struct Table {
     rows: Vec<Vec<String>>,
@@ -15,18 +18,26 @@ pub struct Table {
 impl Table {
     /// A table with these names of columns, and no row.
     pub fn new<'a>(header: impl IntoIterator<Item = &'a str>) -> Self {
-        Self { rows: vec![header.into_iter().map(str::to_owned).collect()] }
+        Self { rows: vec![header.into_iter().map(str::to_owned).map(shortened).collect()] }
     }
 
     /// Adds a row.
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
-        self.rows.push(cells.into_iter().collect());
+        self.rows.push(cells.into_iter().map(shortened).collect());
     }
 
     /// Whether the body of a column, blanks and dashes aside, holds numbers only.
     fn is_numeric(&self, column: usize) -> bool {
         let body = self.rows[1..].iter().filter_map(|row| row.get(column));
         body.filter(|cell| !cell.is_empty() && *cell != "-").all(|cell| cell.parse::<f64>().is_ok())
+    }
+}
+
+/// Text of at most [`WIDEST`] characters, with an ellipsis where it was longer.
+pub fn shortened(text: String) -> String {
+    match text.char_indices().nth(WIDEST) {
+        Some(_) => text.chars().take(WIDEST - 1).chain(['…']).collect(),
+        None => text,
     }
 }
 
@@ -55,6 +66,14 @@ mod tests {
     #[test]
     fn one_has_no_plural() {
         assert_eq!([0, 1, 2].map(|count| counted(count, "kink")), ["0 kinks", "1 kink", "2 kinks"]);
+    }
+
+    #[test]
+    fn long_cells_are_shortened() {
+        let mut table = Table::new(["name"]);
+        table.row(["ä".repeat(70_000)]);
+        assert_eq!(table.to_string().lines().nth(1).map(|line| line.chars().count()), Some(202));
+        assert!(table.to_string().ends_with("ä…\n"));
     }
 
     #[test]

@@ -17,13 +17,21 @@ const SLACK: f64 = 0.03;
 /// Largest error allowed in the place of a contact, however large the noise, in lengths of the rod.
 const WIDEST: f64 = 0.3;
 
-/// Shares of the averages in contact that satisfy a condition and that are possible, and the correlation of work and energy.
-pub(super) fn agreement(
-    samples: &[Sample],
-    noise: [f64; 2],
-    stiffness: f64,
-    length: Option<f64>,
-) -> Option<(f64, f64, f64)> {
+/// How well samples agree with a single frictionless contact.
+#[derive(Clone, Debug)]
+pub(super) struct Agreement {
+    /// Share of the averages in contact that satisfy one of the two conditions.
+    pub explained: f64,
+    /// Share that some single contact explains.
+    pub possible: f64,
+    /// The farthest contact but for a twentieth, in lengths of the rod.
+    pub reach: f64,
+    /// Steps of the scan in contact: work of the clamp along x, y and its angle, and the change of the elastic energy, J.
+    steps: Vec<[f64; 4]>,
+}
+
+/// The agreement of samples; none where too few are in contact.
+pub(super) fn agreement(samples: &[Sample], noise: [f64; 2], stiffness: f64, length: Option<f64>) -> Option<Agreement> {
     let force = |sample: &Sample| sample.reactions.f0x.hypot(sample.reactions.f0y);
     let largest = samples.iter().map(force).fold(0.0, f64::max);
     let touches = |sample: &Sample| {
@@ -47,6 +55,9 @@ pub(super) fn agreement(
         possible(touched)
             && (touched.excess.abs() <= touched.slack || (touched.s / length - 1.0).abs() <= touched.reach)
     });
+    let mut places: Vec<f64> = contacts.iter().map(|touched| touched.s).filter(|s| s.is_finite()).collect();
+    places.sort_unstable_by(f64::total_cmp);
+    let reach = places.get(places.len() * 19 / 20)? / length;
     let energies: Vec<f64> = found
         .iter()
         .zip(samples)
@@ -55,7 +66,7 @@ pub(super) fn agreement(
         })
         .collect();
     let contact: Vec<bool> = found.iter().map(Option::is_some).collect();
-    Some((explained, share(&possible), correlation(samples, &contact, &energies)))
+    Some(Agreement { explained, possible: share(&possible), reach, steps: steps(samples, &contact, &energies) })
 }
 
 /// An average in contact.
@@ -96,8 +107,7 @@ fn length_of(contacts: &[&Touched]) -> Option<f64> {
     off.get(off.len() / 2).copied()
 }
 
-/// Correlation, about 0, of the work of the clamp and the change of the elastic energy. Jumps, in which energy is lost, count little.
-fn correlation(samples: &[Sample], contact: &[bool], energies: &[f64]) -> f64 {
+fn steps(samples: &[Sample], contact: &[bool], energies: &[f64]) -> Vec<[f64; 4]> {
     let work = |k: usize| {
         let (a, b) = (&samples[k], &samples[k + 1]);
         let mean = |of: fn(&Reactions) -> f64| {
@@ -107,25 +117,39 @@ fn correlation(samples: &[Sample], contact: &[bool], energies: &[f64]) -> f64 {
                 .map(|one| of(&one.0.reactions))
                 .sum::<f64>()
         };
-        mean(|r| r.f0x) * (b.pose.x - a.pose.x)
-            + mean(|r| r.f0y) * (b.pose.y - a.pose.y)
-            + mean(|r| r.m0z) * (b.pose.phi - a.pose.phi)
+        [
+            mean(|r| r.f0x) * (b.pose.x - a.pose.x),
+            mean(|r| r.f0y) * (b.pose.y - a.pose.y),
+            mean(|r| r.m0z) * (b.pose.phi - a.pose.phi),
+        ]
     };
-    let steps: Vec<(f64, f64)> = (0..samples.len().saturating_sub(LAG))
+    (0..samples.len().saturating_sub(LAG))
         .step_by(LAG)
         .filter(|&k| contact[k] || contact[k + LAG])
-        .map(|k| ((k..k + LAG).map(work).sum(), energies[k + LAG] - energies[k]))
-        .collect();
-    let limit = |of: fn(&(f64, f64)) -> f64| {
-        let mut sizes: Vec<f64> = steps.iter().map(|step| of(step).abs()).collect();
-        sizes.sort_unstable_by(f64::total_cmp);
-        sizes.get(sizes.len() * 9 / 10).copied().unwrap_or_default()
-    };
-    let limits = [limit(|step| step.0), limit(|step| step.1)];
-    let sums = steps.iter().fold([0.0; 3], |[wu, ww, uu], (w, u)| {
-        let (w, u) = (w.clamp(-limits[0], limits[0]), u.clamp(-limits[1], limits[1]));
-        [wu + w * u, ww + w * w, uu + u * u]
-    });
-    let found = sums[0] / (sums[1] * sums[2]).sqrt();
-    if found.is_finite() { found } else { 0.0 }
+        .map(|k| {
+            let [x, y, phi] = (k..k + LAG).map(work).fold([0.0; 3], |[a, b, c], [x, y, z]| [a + x, b + y, c + z]);
+            [x, y, phi, energies[k + LAG] - energies[k]]
+        })
+        .collect()
+}
+
+impl Agreement {
+    /// Concordance of the work of the clamp and the change of the elastic energy (Lin 1989, about 0), each component in another unit or with
+    /// another sign by its factor: 1 where they are equal, -1 where they are opposite, 0 where one is much larger or they are independent.
+    /// Jumps, in which energy is lost, count little.
+    pub fn concordance(&self, factors: [f64; 4]) -> f64 {
+        let [x, y, phi, energy] = factors;
+        let both: Vec<[f64; 2]> =
+            self.steps.iter().map(|step| [x * step[0] + y * step[1] + phi * step[2], energy * step[3]]).collect();
+        let limits = [0, 1].map(|of: usize| {
+            let mut sizes: Vec<f64> = both.iter().map(|step| step[of].abs()).collect();
+            sizes.sort_unstable_by(f64::total_cmp);
+            sizes.get(sizes.len() * 9 / 10).copied().unwrap_or_default()
+        });
+        let [product, squares] = both.iter().fold([0.0; 2], |[product, squares], [work, energy]| {
+            let (work, energy) = (work.clamp(-limits[0], limits[0]), energy.clamp(-limits[1], limits[1]));
+            [product + work * energy, squares + work * work + energy * energy]
+        });
+        if squares > 0.0 { 2.0 * product / squares } else { 0.0 }
+    }
 }

@@ -3,10 +3,13 @@
 //! Forces have eight sets of axes and signs in the plane, the moment has two signs. In each of the sixteen frames a single frictionless
 //! contact satisfies one of two conditions in all samples: m0z^2 = 2 EI (f0y sin phi0 + f0x cos phi0), or the contact is at the tip
 //! (Merker et al. 2020, eq. 18 and 20). These conditions do not change where the rod and all loads are mirrored about the clamp's axis; the
-//! work of the clamp does, which must be the change of the elastic energy. Without a rod the stiffness is that of the line of tangential
-//! contacts, and the length that of the contacts off this line.
+//! work of the clamp does, which must be the change of the elastic energy, in sign and size. Without a rod the stiffness is that of the line of
+//! tangential contacts, and the length that of the contacts off this line.
+//!
+//! Hypotheses are the sixteen frames, each with coordinates and angle of the clamp reversed or not, and with each unit that may be. A sensor
+//! and a stage that are mirrored against each other leave open which of both is: the prior probabilities decide, or the user.
 
-use super::agreement::{FEWEST, SIGMAS, agreement};
+use super::agreement::{Agreement, FEWEST, SIGMAS, agreement};
 use vibrissa::Rod;
 use vibrissa::Sample;
 use vibrissa::reconstruct::noise_estimate::estimate;
@@ -15,16 +18,37 @@ use vibrissa::rod::Reactions;
 
 /// Most averages of consecutive samples. More: more time; fewer: short phases are averaged out.
 const MOST: usize = 300;
-/// Share of the averages that satisfy one of the conditions in the preferred frame, at least.
-pub(super) const SHARE: f64 = 0.7;
-/// Difference of the scores of the best two frames, at least. Scores are at most 3.
-pub(super) const MARGIN: f64 = 0.3;
-/// With a correlation of work and energy of this size, at least, and so much above that of the second frame, the conditions need not be satisfied: friction, a
-/// taper and springs spoil them, the work hardly.
+/// Share of the averages that satisfy one of the conditions under a hypothesis that explains the recording, at least.
+const SHARE: f64 = 0.7;
+/// The concordance of work and energy then, at least. Work ten times too large has 0.2, and 2.5 times 0.7; the best of wrong hypotheses had
+/// 0.44 where phi0 was wrong by 90 degrees, and where all reactions were twice too large.
+const WEAK_WORK: f64 = 0.5;
+/// With this concordance the conditions need not be satisfied: friction, a taper and springs spoil them, the work hardly.
 const WORK: f64 = 0.7;
-const WORK_MARGIN: f64 = 0.3;
-/// The unit is another one where the slope of the line is within this factor of that of the rod in that unit.
+/// Number of independent observations that each of the three measures of agreement is worth. Consecutive samples are not independent,
+/// and contacts that are not single spoil many of them alike. Larger: more is decided, and more of it wrongly.
+const INDEPENDENT: f64 = 10.0;
+/// Logarithm of the ratio of the probabilities of the best and the next hypothesis from which on the best is relied on: 20 to 1.
+pub(super) const MARGIN: f64 = 3.0;
+/// Logarithm of a prior probability below which the best hypothesis is a question: so many changes may fit by chance.
+pub(super) const UNLIKELY: f64 = -5.0;
+/// Logarithm of the prior probability that a coordinate or the angle of the clamp is reversed.
+const REVERSED: f64 = -3.5;
+/// Logarithm of the probability that a hypothesis is right that does not explain the recording: more than a file's word for a unit is worth.
+const MISFIT: f64 = -10.0;
+/// Standard deviation of the logarithm of a rod's stiffness, as far as its file knows it.
+const STIFFNESS: f64 = 0.3;
+/// Standard deviation of the logarithm of the farthest contact, in lengths of the rod: in units in which forces are k^2, moments k and ways 1/k
+/// times as large, tangential contacts satisfy all conditions, but are at 1/k of the place.
+const REACH: f64 = 1.0;
+/// A recording all of whose contacts are nearer to the clamp than this, in lengths of the rod, is in other units, or of another rod.
+const NEAREST: f64 = 0.1;
+/// The unit may be another one where the slope of the line is within this factor of that of the rod in that unit.
 pub(super) const NEAR: f64 = 2.0;
+/// The same for the largest m0z^2 / (2 |F|), which has more scatter.
+const LOOSE: std::ops::Range<f64> = 0.05..4.0;
+/// Most other hypotheses that are reported.
+const OTHERS: usize = 3;
 
 /// A frame of the reactions: which column is which, and with what sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +85,19 @@ impl ReactionFrame {
         samples.iter().map(|sample| Sample { reactions: self.of(sample.reactions), ..*sample }).collect()
     }
 
+    /// Logarithm of the prior probability, of those of loads, of a turn and of a mirror.
+    fn prior(self, [load, turn, mirror]: [f64; 3]) -> f64 {
+        let [x, y, z] = self.turned;
+        // the moment has the sign of the plane's orientation, and both have that of the sense
+        let is_mirrored = self.swapped != (x != y);
+        let sense = if z == is_mirrored { 0.0 } else { load };
+        match (is_mirrored, self.is_as_is() || self.is_load()) {
+            (_, true) => sense,
+            (true, _) => mirror + sense,
+            (false, _) => turn + sense,
+        }
+    }
+
     /// In words, where the columns are called so.
     pub fn text(self, names: [&str; 3]) -> String {
         let [x, y, z] = if self.swapped { [names[1], names[0], names[2]] } else { names };
@@ -75,81 +112,135 @@ impl ReactionFrame {
     }
 }
 
-/// A frame with how well it explains the samples.
+/// Units of lengths, angles, forces and moments; see [`Candidate`].
+pub(super) const DIMENSIONS: usize = 4;
+
+/// A unit in which columns may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Candidate {
+    pub unit: &'static str,
+    /// One of it, relative to the unit in which the samples are.
+    pub factor: f64,
+    /// Logarithm of the prior probability, relative to that of others.
+    pub prior: f64,
+}
+
+/// Axes, signs and units of all columns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hypothesis {
+    pub frame: ReactionFrame,
+    /// Whether x, y and the angle of the clamp are reversed.
+    pub reversed: [bool; 3],
+    /// The units, as indices of the candidates.
+    pub units: [usize; DIMENSIONS],
+}
+
+/// A hypothesis with how well it explains the samples.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rated {
-    pub frame: ReactionFrame,
+    pub hypothesis: Hypothesis,
     /// Share of the averages that satisfy one of the two conditions.
     pub explained: f64,
     /// Share that some single contact explains.
     pub possible: f64,
-    /// Correlation of the work of the clamp and the change of the energy.
+    /// The farthest contact, in lengths of the rod.
+    pub reach: f64,
+    /// Concordance of the work of the clamp and the change of the energy.
     pub energy: f64,
-    /// Bending stiffness of the line over that of the rod, in the units found; 1 without either.
+    /// Bending stiffness of the line over that of the rod, in these units; 1 without either.
     pub stiffness: f64,
-    /// N and N m of the units of forces and moments that fit the rod.
-    pub units: [f64; 2],
+    /// Logarithm of the prior probability.
+    pub prior: f64,
 }
 
 impl Rated {
+    /// Logarithm of the posterior probability, but for a constant.
     pub fn score(&self) -> f64 {
-        self.explained + self.possible + self.energy
+        let sizes = 0.5 * (self.stiffness.ln() / STIFFNESS).powi(2) + 0.5 * (self.reach.ln() / REACH).powi(2);
+        let misfit = if self.fits() { 0.0 } else { MISFIT };
+        INDEPENDENT * (self.explained + self.possible + self.energy) + self.prior - sizes + misfit
+    }
+
+    /// Whether it explains the recording at all.
+    pub fn fits(&self) -> bool {
+        (self.explained >= SHARE && self.energy >= WEAK_WORK || self.energy >= WORK) && self.reach > NEAREST
     }
 }
 
-/// The frame that the physics prefers.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FrameVerdict {
+/// The hypotheses that the physics prefers.
+#[derive(Clone, Debug)]
+pub(super) struct Verdict {
     pub best: Rated,
-    pub second: Rated,
-    /// Whether the best is so much better that it can be relied on.
+    /// Others with another frame or pose, the most probable first.
+    pub others: Vec<Rated>,
+    /// Whether axes and signs can be relied on.
     pub is_decided: bool,
+    /// Whether the units can.
+    pub are_units_decided: [bool; DIMENSIONS],
     /// Means of the reactions over the first samples, where these are steady and not 0: an offset, which was subtracted.
     pub offset: Option<[f64; 3]>,
 }
 
 /// What is known before.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Before<'r> {
     pub rod: Option<&'r Rod>,
-    /// Whether the units of forces and moments are known.
-    pub units: [bool; 2],
+    /// Units that may be; the first are those of the samples.
+    pub units: [Vec<Candidate>; DIMENSIONS],
+    /// Logarithms of the prior probabilities of loads, of a sensor turned by quarter turns, and of one that is mirrored (upside down).
+    pub frames: [f64; 3],
 }
 
-/// The frame of samples; none where too few are in contact. Reactions whose unit is not known are taken as N and N m.
-pub(super) fn frame(samples: &[Sample], before: Before<'_>) -> Option<FrameVerdict> {
+/// The most probable hypotheses; none where too few samples are in contact.
+pub(super) fn verdict(samples: &[Sample], before: &Before<'_>) -> Option<Verdict> {
     let (averages, noise, offset) = averages(samples)?;
-    // the line depends on the order and the relative sign of the forces; the slope changes its sign with both
-    let lines = [false, true].map(|swapped| {
-        [false, true].map(|opposite| slope(&averages, ReactionFrame { swapped, turned: [false, opposite, false] }))
-    });
-    let slope = |frame: ReactionFrame| {
-        let [x, y, _] = frame.turned;
-        let slope = lines[usize::from(frame.swapped)][usize::from(x != y)];
-        slope.map(|slope| if x { -slope } else { slope }).filter(|slope| *slope > 0.0)
-    };
-    let mut rated: Vec<Rated> =
-        ReactionFrame::all().filter_map(|frame| rate(&averages, noise, frame, slope(frame), before)).collect();
-    rated.sort_by(|a, b| b.score().total_cmp(&a.score()));
-    let [best, second] = [*rated.first()?, *rated.get(1)?];
-    let by_work = best.energy >= WORK
-        && best.energy - second.energy >= WORK_MARGIN
-        && rated.iter().all(|other| other.energy <= best.energy);
-    let is_decided =
-        (best.explained >= SHARE && best.energy > 0.0 || by_work) && best.score() - second.score() >= MARGIN;
-    let verdict = FrameVerdict { best, second, is_decided, offset };
-    match before.rod {
-        // in units that the rod contradicts the recording may still agree with itself
-        Some(rod) if !is_decided => {
-            let alone = frame(samples, Before { rod: None, ..before }).filter(|alone| alone.is_decided);
-            let with_ratio = |mut alone: FrameVerdict| {
-                alone.best.stiffness = slope(alone.best.frame)? / rod.bending_stiffness();
-                Some(alone)
-            };
-            Some(alone.and_then(with_ratio).unwrap_or(verdict))
-        }
-        _ => Some(verdict),
+    let mut rated = Vec::new();
+    for angle in 0..before.units[1].len() {
+        rate(&averages, noise, angle, before, &mut rated);
     }
+    rated.sort_by(|a, b| b.score().total_cmp(&a.score()));
+    let best = *rated.first()?;
+    if let Some(rod) = before.rod
+        && !best.fits()
+    {
+        // in units that the rod contradicts the recording may still agree with itself
+        let alone = verdict(samples, &Before { rod: None, ..before.clone() });
+        if let Some(mut alone) = alone.filter(|alone| alone.best.fits()) {
+            let Hypothesis { frame, units, .. } = alone.best.hypothesis;
+            let one = |of: usize| before.units[of][units[of]].factor;
+            let slope = slope(&frame.samples(&turned(&averages, one(1))))?;
+            alone.best.stiffness = slope * one(3).powi(2) / one(2) / rod.bending_stiffness();
+            return Some(alone);
+        }
+    }
+    let lead = |differs: &dyn Fn(&Hypothesis) -> bool| {
+        let other = rated.iter().find(|other| differs(&other.hypothesis));
+        best.fits() && other.is_none_or(|other| best.score() - other.score() >= MARGIN)
+    };
+    let Hypothesis { frame, reversed, units } = best.hypothesis;
+    let differs = |other: &Hypothesis| (other.frame, other.reversed) != (frame, reversed);
+    let is_decided = lead(&differs);
+    let are_units_decided = [0, 1, 2, 3].map(|of: usize| lead(&|other| other.units[of] != units[of]));
+    let mut others: Vec<Rated> = Vec::new();
+    for other in rated.iter().filter(|other| differs(&other.hypothesis)) {
+        let is_new = others.iter().all(|known| {
+            (known.hypothesis.frame, known.hypothesis.reversed) != (other.hypothesis.frame, other.hypothesis.reversed)
+        });
+        if is_new && others.len() < OTHERS {
+            others.push(*other);
+        }
+    }
+    Some(Verdict { best, others, is_decided, are_units_decided, offset })
+}
+
+/// Samples whose angles are in another unit.
+fn turned(samples: &[Sample], factor: f64) -> Vec<Sample> {
+    let of = |sample: &Sample| {
+        let mut sample = *sample;
+        sample.pose.phi *= factor;
+        sample
+    };
+    samples.iter().map(of).collect()
 }
 
 /// Means of consecutive samples less the offset, the standard deviations of the reactions in them, and the offset, if there is one.
@@ -222,49 +313,136 @@ impl Start {
 }
 
 /// Slope of the line of tangential contacts, if there is one.
-fn slope(averages: &[Sample], frame: ReactionFrame) -> Option<f64> {
-    let samples: Vec<Sample> = frame.samples(averages);
-    Some(plausibility(&Rod::new(1.0, 1.0).ok()?, &samples).line?.slope)
+fn slope(samples: &[Sample]) -> Option<f64> {
+    Some(plausibility(&Rod::new(1.0, 1.0).ok()?, samples).line?.slope)
 }
 
-fn rate(
-    averages: &[Sample],
-    noise: [f64; 3],
+/// Rates all hypotheses in which the angles are in this unit.
+fn rate(averages: &[Sample], noise: [f64; 3], angle: usize, before: &Before<'_>, rated: &mut Vec<Rated>) {
+    let averages = turned(averages, before.units[1][angle].factor);
+    // the line depends on the order and the relative sign of the forces; the slope changes its sign with both
+    let lines = [false, true].map(|swapped| {
+        [false, true]
+            .map(|opposite| slope(&ReactionFrame { swapped, turned: [false, opposite, false] }.samples(&averages)))
+    });
+    let moves = |of: fn(&Sample) -> f64| averages.iter().any(|sample| of(sample) != of(&averages[0]));
+    let may_be_reversed = [
+        moves(|sample| sample.pose.x),
+        moves(|sample| sample.pose.y),
+        averages.iter().any(|sample| sample.pose.phi != 0.0),
+    ];
+    for frame in ReactionFrame::all() {
+        let [x, y, _] = frame.turned;
+        let slope = lines[usize::from(frame.swapped)][usize::from(x != y)].map(|slope| if x { -slope } else { slope });
+        let slope = slope.filter(|slope| *slope > 0.0);
+        let samples = frame.samples(&averages);
+        for (units, agreement, stiffness) in agreements(&samples, frame, noise, slope, before) {
+            let shared = Shared { frame, angle, units, stiffness, may_be_reversed, agreement: &agreement };
+            shared.hypotheses(before, rated);
+        }
+    }
+}
+
+/// The agreement of samples in each pair of units of forces and moments that the rod allows, and the stiffness of the line over that of
+/// the rod. Without a rod all pairs agree alike.
+fn agreements(
+    samples: &[Sample],
     frame: ReactionFrame,
+    noise: [f64; 3],
     slope: Option<f64>,
-    before: Before<'_>,
-) -> Option<Rated> {
-    let samples = frame.samples(averages);
-    let (units, stiffness) = match (before.rod, slope) {
-        (Some(rod), Some(slope)) => units(slope / rod.bending_stiffness(), before.units),
-        _ => ([1.0; 2], 1.0),
+    before: &Before<'_>,
+) -> Vec<([usize; 2], Agreement, f64)> {
+    let [.., forces, moments] = &before.units;
+    let across = if frame.swapped { [noise[1], noise[0], noise[2]] } else { noise };
+    let noise = [across[0].max(across[1]), across[2]];
+    let pairs = (0..forces.len()).flat_map(|force| (0..moments.len()).map(move |moment| [force, moment]));
+    let Some(rod) = before.rod else {
+        let found = slope.and_then(|slope| agreement(samples, noise, slope, None));
+        return found.map_or_else(Vec::new, |found| pairs.map(|pair| (pair, found.clone(), 1.0)).collect());
     };
-    let scaled = |sample: &Sample| {
-        let Reactions { f0x, f0y, m0z } = sample.reactions;
-        let reactions = Reactions { f0x: units[0] * f0x, f0y: units[0] * f0y, m0z: units[1] * m0z };
-        Sample { reactions, ..*sample }
+    let ratio = slope.unwrap_or_else(|| largest_criterion(samples)) / rod.bending_stiffness();
+    let range = if slope.is_some() { 1.0 / NEAR..NEAR } else { LOOSE };
+    let in_units = |[force, moment]: [usize; 2]| {
+        let (force_unit, moment_unit) = (forces[force].factor, moments[moment].factor);
+        let ratio = ratio * moment_unit.powi(2) / force_unit;
+        if !range.contains(&ratio) {
+            return None;
+        }
+        let stiffness = if slope.is_some() { ratio } else { 1.0 };
+        let scaled = |sample: &Sample| {
+            let Reactions { f0x, f0y, m0z } = sample.reactions;
+            let reactions = Reactions { f0x: force_unit * f0x, f0y: force_unit * f0y, m0z: moment_unit * m0z };
+            Sample { reactions, ..*sample }
+        };
+        let samples: Vec<Sample> = samples.iter().map(scaled).collect();
+        let noise = [force_unit * noise[0], moment_unit * noise[1]];
+        let found = agreement(&samples, noise, rod.bending_stiffness() * stiffness, Some(rod.length()))?;
+        Some(([force, moment], found, stiffness))
     };
-    let samples: Vec<Sample> = samples.iter().map(scaled).collect();
-    let swapped = if frame.swapped { [noise[1], noise[0], noise[2]] } else { noise };
-    let noise = [units[0] * swapped[0].max(swapped[1]), units[1] * swapped[2]];
-    let stiff = match before.rod {
-        Some(rod) => rod.bending_stiffness() * if (0.5..2.0).contains(&stiffness) { stiffness } else { 1.0 },
-        None => slope?,
-    };
-    let length = before.rod.map(Rod::length);
-    let (explained, possible, energy) = agreement(&samples, noise, stiff, length)?;
-    Some(Rated { frame, explained, possible, energy, stiffness, units })
+    pairs.filter_map(in_units).collect()
 }
 
-/// Units of forces and moments, and what remains of the ratio of the line's slope to the stiffness in them.
-fn units(ratio: f64, known: [bool; 2]) -> ([f64; 2], f64) {
-    let forces: &[f64] = if known[0] { &[1.0] } else { &[1.0, 1e-3] };
-    let moments: &[f64] = if known[1] { &[1.0] } else { &[1.0, 1e-3, 1e-6] };
-    let all = forces.iter().flat_map(|force| moments.iter().map(move |moment| [*force, *moment]));
-    let rest = |units: [f64; 2]| ratio * units[1].powi(2) / units[0];
-    let best = all.min_by(|a, b| rest(*a).ln().abs().total_cmp(&rest(*b).ln().abs())).unwrap_or([1.0; 2]);
-    let is_near = rest(best).ln().abs() < NEAR.ln();
-    if is_near { (best, rest(best)) } else { ([1.0; 2], ratio) }
+/// The largest m0z^2 / (2 |F|) but for a twentieth: at most the stiffness, and not much less.
+fn largest_criterion(samples: &[Sample]) -> f64 {
+    let of = |sample: &Sample| {
+        let Reactions { f0x, f0y, m0z } = sample.reactions;
+        m0z * m0z / (2.0 * f0x.hypot(f0y))
+    };
+    let largest = samples.iter().map(|s| s.reactions.f0x.hypot(s.reactions.f0y)).fold(0.0, f64::max);
+    let strong = samples.iter().filter(|s| s.reactions.f0x.hypot(s.reactions.f0y) > 0.1 * largest);
+    let mut all: Vec<f64> = strong.map(of).filter(|value| value.is_finite()).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    all.get(all.len() * 19 / 20).copied().unwrap_or_default()
+}
+
+/// Hypotheses with the same contacts: the work alone distinguishes them.
+struct Shared<'a> {
+    frame: ReactionFrame,
+    angle: usize,
+    units: [usize; 2],
+    stiffness: f64,
+    may_be_reversed: [bool; 3],
+    agreement: &'a Agreement,
+}
+
+impl Shared<'_> {
+    fn hypotheses(&self, before: &Before<'_>, rated: &mut Vec<Rated>) {
+        let [lengths, angles, forces, moments] = &before.units;
+        let [force, moment] = self.units;
+        // with a rod the agreement is in these units already
+        let one = if before.rod.is_some() { [1.0; 2] } else { [forces[force].factor, moments[moment].factor] };
+        let units_prior = angles[self.angle].prior + forces[force].prior + moments[moment].prior;
+        let either = |may: bool| if may { &[false, true][..] } else { &[false] };
+        for (length, candidate) in lengths.iter().enumerate() {
+            for (&x, &y) in either(self.may_be_reversed[0])
+                .iter()
+                .flat_map(|x| either(self.may_be_reversed[1]).iter().map(move |y| (x, y)))
+            {
+                let sign = |turned: bool| if turned { -1.0 } else { 1.0 };
+                let way = one[0] * candidate.factor;
+                let energy = self.agreement.concordance([sign(x) * way, sign(y) * way, one[1], one[1]]);
+                for &phi in either(self.may_be_reversed[2]) {
+                    // a rod mirrored about x, with f0y and m0z, has the same contacts at the opposite angle; its work along y is the opposite
+                    let [a, b, c] = self.frame.turned;
+                    let frame = if phi { ReactionFrame { turned: [a, !b, !c], ..self.frame } } else { self.frame };
+                    let reversed = [x, y != (phi && self.may_be_reversed[1]), phi];
+                    let prior = units_prior
+                        + candidate.prior
+                        + frame.prior(before.frames)
+                        + REVERSED * reversed.iter().filter(|reversed| **reversed).count() as f64;
+                    rated.push(Rated {
+                        hypothesis: Hypothesis { frame, reversed, units: [length, self.angle, force, moment] },
+                        explained: self.agreement.explained,
+                        possible: self.agreement.possible,
+                        reach: self.agreement.reach,
+                        energy,
+                        stiffness: self.stiffness,
+                        prior,
+                    });
+                }
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -307,11 +485,21 @@ mod tests {
                 Sample { reactions: Reactions { f0x: a, f0y: b, m0z: z * m0z }, ..*sample }
             };
             let file: Vec<Sample> = samples.iter().map(of_file).collect();
-            let Some(verdict) = frame(&file, Before { rod, units: [true; 2] }) else { return false };
-            assert!(!verdict.is_decided || verdict.best.frame == told, "{told:?}: {verdict:?}");
+            let Some(verdict) = verdict(&file, &before(rod, [0.0; 3], &[1.0], &[1.0])) else { return false };
+            let best = verdict.best.hypothesis;
+            assert!(!verdict.is_decided || best.frame == told && best.reversed == [false; 3], "{told:?}: {verdict:?}");
             verdict.is_decided
         };
         ReactionFrame::all().step_by(5).filter(|frame| is_right(*frame)).count()
+    }
+
+    /// Lengths in m, mm, cm or inches, angles in rad, and these units of forces and moments.
+    fn before<'r>(rod: Option<&'r Rod>, frames: [f64; 3], forces: &[f64], moments: &[f64]) -> Before<'r> {
+        let units = |factors: &[f64]| {
+            factors.iter().map(|factor| Candidate { unit: "", factor: *factor, prior: 0.0 }).collect::<Vec<_>>()
+        };
+        let units = [units(&[1.0, 1e-3, 1e-2, 0.0254]), units(&[1.0]), units(forces), units(moments)];
+        Before { rod, units, frames }
     }
 
     fn all(force: f64, moment: f64) -> Reactions {
@@ -351,9 +539,23 @@ mod tests {
                 Sample { reactions: Reactions { f0x: f0x / force, f0y: f0y / force, m0z: m0z / moment }, ..*sample }
             };
             let file: Vec<Sample> = samples.iter().map(of_file).collect();
-            let verdict = frame(&file, Before { rod: Some(&rod), units: [false; 2] }).unwrap();
-            assert!(verdict.is_decided && verdict.best.frame.is_as_is(), "{verdict:?}");
-            assert_eq!(verdict.best.units, [force, moment], "{verdict:?}");
+            let before = before(Some(&rod), [0.0; 3], &[1.0, 1e-3], &[1.0, 1e-3, 1e-6]);
+            let verdict = verdict(&file, &before).unwrap();
+            let best = verdict.best.hypothesis;
+            assert!(verdict.is_decided && best.frame.is_as_is(), "{verdict:?}");
+            let found = [2, 3].map(|of: usize| before.units[of][best.units[of]].factor);
+            assert!(verdict.are_units_decided == [true; 4] && found == [force, moment], "{verdict:?}");
         }
+    }
+
+    /// A coordinate that is reversed is another hypothesis than forces and moments that are.
+    #[test]
+    fn a_reversed_coordinate_is_not_taken_for_reversed_reactions() {
+        let rod = Rod::new(0.1, 6.32e-4).unwrap();
+        let mut samples = scan(0.0, NoiseModel::default());
+        samples.iter_mut().for_each(|sample| sample.pose.x *= -1.0);
+        let verdict = verdict(&samples, &before(Some(&rod), [-2.3, -2.0, -5.0], &[1.0], &[1.0])).unwrap();
+        assert!(!verdict.is_decided && verdict.best.hypothesis.reversed == [true, false, false], "{verdict:?}");
+        assert_eq!(verdict.others[0].hypothesis.frame.turned, [true, false, true], "{verdict:?}");
     }
 }

@@ -1,14 +1,15 @@
 //! A look at one file.
 
+use super::InspectOptions;
 use super::binary;
 use super::layout::layout;
-use super::motion::motion;
-use super::physics::unit_question;
+use super::motion::{MOTION, motion};
+use super::physics::{Measured, Says, unit_question};
 use super::proposal::{Proposal, name_of};
 use super::report::{Certainty, InspectedColumn, InspectedFile, Question};
 use super::rows::rows;
 use super::shell_word::quoted;
-use super::values::{channel, poses};
+use super::values::poses;
 use crate::ReadOptions;
 use std::path::{Path, PathBuf};
 use vibrissa::hw::recording::{ColumnGuess, Header, Quantity, Role, Sureness, Table, TableGuess, TableKind, guess};
@@ -93,7 +94,7 @@ impl Look {
         .to_owned();
         rows(&mut self.report, &table, &guess);
         if let Some(path) = poses(&table, &guess).and_then(|poses| motion(&poses)) {
-            self.report.fact("motion of the clamp", path);
+            self.report.fact(MOTION, path);
         }
         self.report.columns = guess.columns.iter().map(|column| described(&table, column)).collect();
         if self.content == Content::Frames {
@@ -165,13 +166,70 @@ impl Look {
         }
     }
 
+    /// A column of a pose or of reactions; none where there is no such column.
+    pub fn measured(&self, role: Role, options: &InspectOptions) -> Option<Measured> {
+        let (table, guess) = self.table.as_ref()?;
+        let column = guess.of(role)?;
+        let name = name_of(table, column.column);
+        let heading = &table.columns()[column.column];
+        let read = [Some(&options.read), options.read.stage.as_deref()];
+        let mut given = read.into_iter().flatten().flat_map(|read| &read.options.units);
+        let says = if given.any(|(name, _)| heading.name == *name || heading.heading == *name) {
+            Says::User
+        } else if column.is_unit_written {
+            Says::File
+        } else if column.is_unit_known {
+            Says::Name
+        } else if column.unit.is_some() {
+            Says::Values
+        } else {
+            Says::Nothing
+        };
+        Some(Measured { role, name, column: column.column, unit: column.unit, is_turned: column.is_turned, says })
+    }
+
     /// First and last time, s; none where they are not known.
     pub fn times(&self) -> Option<[f64; 2]> {
-        let (table, guess) = self.table.as_ref()?;
-        let times = channel(table, guess, Role::Time)?;
-        let finite = times.iter().copied().filter(|time| time.is_finite());
-        let (first, last) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(t), b.max(t)));
-        (first <= last).then_some([first, last])
+        let unit = self.table.as_ref()?.1.of(Role::Time)?.unit;
+        self.times_in(unit.unwrap_or("s"))
+    }
+
+    /// The same if the times are in this unit.
+    pub fn times_in(&self, unit: &str) -> Option<[f64; 2]> {
+        let values = &self.table.as_ref()?.1.of(Role::Time)?.values;
+        let factor = Unit::find(unit)?.factor;
+        (values.numbers > 0).then_some([factor * values.least, factor * values.most])
+    }
+
+    /// The units that times may have: that which is written, or else the guess and all others.
+    pub fn time_units(&self) -> Vec<&'static str> {
+        let Some(column) = self.table.as_ref().and_then(|table| table.1.of(Role::Time)) else { return Vec::new() };
+        let guess = column.unit.into_iter();
+        if column.is_unit_written {
+            return guess.collect();
+        }
+        guess.chain(["s", "ms", "us"].into_iter().filter(|unit| Some(*unit) != column.unit)).collect()
+    }
+
+    /// Sets the unit of the times, by those of another file.
+    pub fn set_time_unit(&mut self, unit: &'static str) {
+        let Some((table, guess)) = &mut self.table else { return };
+        let Some(column) = guess.columns.iter_mut().find(|column| column.role == Some(Role::Time)) else { return };
+        let name = name_of(table, column.column);
+        let asked = unit_question(&name);
+        self.report.questions.retain(|question| !question.text.starts_with(&asked));
+        if column.unit == Some(unit) {
+            return;
+        }
+        column.unit = Some(unit);
+        self.proposal.set_unit(&name, unit.to_owned());
+        if let Some(described) = self.report.columns.get_mut(column.column) {
+            (described.unit, described.unit_certainty) = (Some(unit.to_owned()), Certainty::Likely);
+            "the times of the other file".clone_into(&mut described.unit_why);
+        }
+        self.report.facts.retain(|fact| fact.what != "rate");
+        let step = Unit::find(unit).map_or(1.0, |unit| unit.factor) * column.values.step;
+        self.report.fact("rate", format!("{:.6} Hz, by `{name}` in {unit}", 1.0 / step));
     }
 }
 
@@ -185,7 +243,7 @@ fn ask_unit(column: &ColumnGuess, name: &str, dimension: Dimension) -> Question 
     let units: &[&str] = match dimension {
         Dimension::Force => &["N", "mN"],
         Dimension::Torque => &["N m", "mN m", "N mm"],
-        Dimension::Length => &["m", "mm"],
+        Dimension::Length => &["m", "mm", "cm", "in"],
         Dimension::Angle => &["rad", "deg"],
         Dimension::Time => &["s", "ms"],
         Dimension::Temperature => &["degC"],

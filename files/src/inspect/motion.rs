@@ -5,6 +5,8 @@ use vibrissa::reconstruct::passes;
 use vibrissa::rod::Reactions;
 use vibrissa::{Pose, Rod, Sample};
 
+/// The name of the fact.
+pub(super) const MOTION: &str = "motion of the clamp";
 /// Departure from a shape of the path, relative to the way, that counts as measuring error.
 const STRAIGHT: f64 = 2e-3;
 

@@ -1,94 +1,188 @@
-//! The frame of a recording, by the physics, in words and as options.
+//! Axes, signs and units of a recording, by the physics, in words and as options.
 
-use super::frame::{Before, FrameVerdict, NEAR, ReactionFrame, SHARE, frame};
+use super::frame::{
+    Before, Candidate, DIMENSIONS, Hypothesis, MARGIN, NEAR, Rated, ReactionFrame, UNLIKELY, Verdict, verdict,
+};
+use super::motion::{MOTION, motion};
 use super::proposal::Proposal;
 use super::report::{Certainty, InspectedFile, Question};
+use super::shell_word::quoted;
+use vibrissa::hw::Unit;
 use vibrissa::hw::recording::Role;
-use vibrissa::{Rod, Sample};
+use vibrissa::{Pose, Rod, Sample};
 
 /// Relative difference between the stiffness by the recording and that of the rod from which on it is reported.
 const STIFFNESS: f64 = 0.03;
 
-/// The columns of the reactions: names, units, whether these are known, whether the names stand for reactions on the rod.
-pub(super) struct Reacting {
-    pub names: [String; 3],
-    /// Their numbers in the table.
-    pub columns: [usize; 3],
-    /// Whether the file or the user says the units.
-    pub is_written: [bool; 3],
-    /// Whether the user does.
-    pub is_given: bool,
-    pub units: [Option<&'static str>; 3],
-    pub is_turned: [bool; 3],
-    pub is_own: bool,
+/// Units that files have, of lengths, angles, forces and moments, and the logarithms of their prior probabilities.
+const UNITS: [&[(&str, f64)]; DIMENSIONS] = [
+    &[("m", 0.0), ("mm", 0.0), ("cm", -1.0), ("in", -2.0), ("um", -3.0)],
+    &[("rad", 0.0), ("deg", 0.0)],
+    &[("N", 0.0), ("mN", 0.0), ("cN", -1.5)],
+    &[("N m", 0.0), ("N mm", 0.0), ("N cm", -1.5), ("uN m", -1.0)],
+];
+/// Logarithms of the prior probabilities of loads, of a sensor turned by quarter turns and of a mirrored one: where the columns have the names of
+/// reactions along the axes of the scene, and where they have not.
+const OWN_NAMES: [f64; 3] = [-2.3, -2.0, -5.0];
+const ANY_NAMES: [f64; 3] = [0.0, -1.0, -2.0];
+
+/// What says the unit of a column.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub(super) enum Says {
+    Nothing,
+    /// Its values.
+    Values,
+    /// Its own name, which stands for SI.
+    Name,
+    /// The file.
+    File,
+    /// The user.
+    User,
 }
 
-/// Units in which forces and moments are, by what one of them is in N and N m.
-fn unit_name(factor: f64, of_force: bool) -> &'static str {
-    match (of_force, factor) {
-        (true, 1.0) => "N",
-        (true, _) => "mN",
-        (false, 1.0) => "N m",
-        (false, 1e-3) => "N mm",
-        (false, _) => "mN mm",
+/// A column of a pose or of reactions.
+#[derive(Clone, Debug)]
+pub(super) struct Measured {
+    pub role: Role,
+    pub name: String,
+    /// Its number in the table.
+    pub column: usize,
+    pub unit: Option<&'static str>,
+    pub is_turned: bool,
+    pub says: Says,
+}
+
+impl Measured {
+    /// Of [`DIMENSIONS`].
+    fn dimension(&self) -> usize {
+        match self.role {
+            Role::X0 | Role::Y0 => 0,
+            Role::Phi0 => 1,
+            Role::F0x | Role::F0y => 2,
+            _ => 3,
+        }
     }
 }
 
-/// Tests all frames, says which one the physics prefers, and puts it into the options. Returns the frame where it is decided.
+/// The units that columns of one dimension may have.
+fn candidates(columns: &[Measured; 6], dimension: usize) -> Vec<Candidate> {
+    let of = || columns.iter().filter(|column| column.dimension() == dimension);
+    let says = of().map(|column| column.says).fold(Says::Nothing, |a, b| if b > a { b } else { a });
+    let now = of().find(|column| column.says == says).and_then(|column| column.unit);
+    // numbers without a unit are in SI so far
+    let known = now.unwrap_or(UNITS[dimension][0].0);
+    let one = |unit: &str| Unit::find(unit).map_or(1.0, |unit| unit.factor);
+    let less = match says {
+        Says::Nothing => 0.0,
+        Says::Values => -1.0,
+        Says::Name => -3.5,
+        Says::File => -8.0,
+        Says::User => f64::NEG_INFINITY,
+    };
+    let first = Candidate { unit: now.unwrap_or(known), factor: 1.0, prior: 0.0 };
+    let others = UNITS[dimension].iter().filter(|(unit, _)| (one(unit) / one(known) - 1.0).abs() > 1e-9);
+    let others = others.map(|(unit, prior)| Candidate { unit, factor: one(unit) / one(known), prior: prior + less });
+    std::iter::once(first).chain(others.filter(|other| other.prior.is_finite())).collect()
+}
+
+/// The hypothesis that the physics prefers, where it is decided.
+pub(super) struct Preferred {
+    pub frame: ReactionFrame,
+    hypothesis: Hypothesis,
+    units: [Vec<Candidate>; DIMENSIONS],
+    are_units_decided: [bool; DIMENSIONS],
+}
+
+/// Tests all hypotheses, reports which one the physics prefers, and asks where it does not decide.
 pub(super) fn physics(
     file: &mut InspectedFile,
     samples: &[Sample],
-    columns: &Reacting,
+    columns: &[Measured; 6],
+    is_own: bool,
     rod: Option<&Rod>,
-    proposal: Option<&mut Proposal>,
-) -> Option<ReactionFrame> {
-    let known = [columns.is_written[0] && columns.is_written[1], columns.is_written[2]];
-    let verdict = frame(samples, Before { rod, units: known });
-    let names = columns.names.each_ref().map(String::as_str);
-    let decided = verdict.filter(|verdict| verdict.is_decided);
-    match &verdict {
-        None => file.fact("frame", "the physics does not determine axes and signs: too few samples in contact beyond the noise, or no line of tangential contacts"),
-        Some(verdict) => {
-            if let Some([x, y, z]) = verdict.offset {
-                let [a, b, c] = names;
-                let found = format!(
-                    "{a} {x:.3e}, {b} {y:.3e}, {c} {z:.3e} at the start, where the reactions are constant: the sensor is not tared; subtracted to find the frame, and \
-                     estimated by `reconstruct`"
-                );
-                file.fact("offset", found);
-            }
-            report_frame(file, verdict, names, rod.is_some());
-            if verdict.is_decided {
-                stiffness(file, verdict, rod);
-            }
-        }
-    }
-    let Some(verdict) = decided else {
-        if !columns.is_own {
+) -> Option<Preferred> {
+    let units = [0, 1, 2, 3].map(|dimension| candidates(columns, dimension));
+    let frames = if is_own { OWN_NAMES } else { ANY_NAMES };
+    let is_given = columns[3..].iter().all(|column| column.says == Says::User);
+    let names = [3, 4, 5].map(|k: usize| columns[k].name.as_str());
+    let Some(found) = verdict(samples, &Before { rod, units: units.clone(), frames }) else {
+        file.fact(
+            "frame",
+            "not checked: too few samples in contact beyond the noise, or no line of tangential contacts",
+        );
+        if !is_own {
             ask(file, names);
         }
         return None;
     };
-    let best = verdict.best;
-    if rod.is_some() && !(known[0] && known[1]) {
-        // the stiffness of the rod answers these questions
-        let answered: Vec<String> = names.iter().map(|name| unit_question(name)).collect();
-        file.questions.retain(|question| !answered.iter().any(|begin| question.text.starts_with(begin)));
+    if let Some([x, y, z]) = found.offset {
+        let [a, b, c] = names;
+        let text = format!(
+            "{a} {x:.3e}, {b} {y:.3e}, {c} {z:.3e} at the start, where nothing changes: not tared; subtracted for the frame, and \
+             estimated by `reconstruct`"
+        );
+        file.fact("offset", text);
     }
-    if let Some(proposal) = proposal {
-        options(file, proposal, columns, &verdict, rod.is_some());
+    report(file, &found, columns, rod.is_some());
+    let best = &found.best;
+    if !best.fits() {
+        if !is_given {
+            misfit(file, best, columns);
+        }
+        return None;
+    }
+    stiffness(file, best, rod);
+    if !found.is_decided {
+        if !is_given {
+            choose(file, &found, columns, &units);
+        }
+        return None;
+    }
+    for dimension in 0..DIMENSIONS {
+        let of = || columns.iter().filter(move |column| column.dimension() == dimension);
+        let says = of().map(|column| column.says).fold(Says::Nothing, |a, b| if b > a { b } else { a });
+        let asked = |question: &Question| of().any(|column| question.text.starts_with(&unit_question(&column.name)));
+        // without a rod the size of forces and moments says nothing but their ratio
+        if found.are_units_decided[dimension] && (dimension < 2 || rod.is_some()) {
+            file.questions.retain(|question| !asked(question));
+            let unit = units[dimension][best.hypothesis.units[dimension]].unit;
+            if best.hypothesis.units[dimension] != 0 && says == Says::File {
+                contradicted(file, of().map(|column| column.name.as_str()).collect(), unit);
+            }
+        } else if (!found.are_units_decided[dimension] || best.hypothesis.units[dimension] != 0)
+            && says > Says::Nothing
+            && !is_given
+        {
+            for column in of() {
+                if !file.questions.iter().any(|question| question.text.starts_with(&unit_question(&column.name))) {
+                    let text = format!("{} the physics fits others, too, or better", unit_question(&column.name));
+                    let answer =
+                        |one: &Candidate| format!("--unit {}", quoted(&format!("{}={}", column.name, one.unit)));
+                    let answers = units[dimension].iter().map(answer).collect();
+                    file.questions.push(Question { text, answers });
+                }
+            }
+        }
+    }
+    if best.prior < UNLIKELY && file.questions.is_empty() && !is_given {
+        choose(file, &found, columns, &units);
+        return None;
     }
     if let Some(rod) = rod
         && !(1.0 / NEAR..NEAR).contains(&best.stiffness)
-        && !columns.is_given
+        && !is_given
     {
-        file.questions.push(contradiction(columns, &verdict, rod));
+        file.questions.push(other_rod(names, best.stiffness, rod));
     }
-    if rod.is_some() && best.units != [1.0; 2] {
-        let [force, moment] = [unit_name(best.units[0], true), unit_name(best.units[1], false)];
+    if rod.is_some() && [2, 3].iter().any(|of| best.hypothesis.units[*of] != 0) {
+        let [force, moment] = [2, 3].map(|of: usize| units[of][best.hypothesis.units[of]].unit);
         file.fact("units", format!("the stiffness of the rod fits forces in {force} and moments in {moment}"));
     }
-    Some(best.frame)
+    let mut are_units_decided = found.are_units_decided;
+    if rod.is_none() {
+        (are_units_decided[2], are_units_decided[3]) = (false, false);
+    }
+    Some(Preferred { frame: best.hypothesis.frame, hypothesis: best.hypothesis, units, are_units_decided })
 }
 
 /// How the question for the unit of a column begins.
@@ -96,37 +190,38 @@ pub(super) fn unit_question(name: &str) -> String {
     format!("in which unit is `{name}`?")
 }
 
-fn report_frame(file: &mut InspectedFile, verdict: &FrameVerdict, names: [&str; 3], has_rod: bool) {
-    let FrameVerdict { best, second, is_decided, .. } = verdict;
-    let of = if has_rod { "" } else { ", with stiffness and length as the recording suggests" };
-    let agreement = format!(
-        "explains {:.0} % of the contact, work and elastic energy correlate by {:+.2}; next {}: {:.0} %, {:+.2}{of}",
-        100.0 * best.explained,
-        best.energy,
-        second.frame.text(names),
-        100.0 * second.explained,
-        second.energy
-    );
-    let text = best.frame.text(names);
-    let found = match (is_decided, best.frame.is_as_is(), best.frame.is_load()) {
-        (false, _, _) => format!("the physics does not determine axes and signs; {text} {agreement}"),
-        (true, true, _) => format!("the physics confirms {text}: it {agreement}"),
-        (true, _, true) => {
-            format!("the columns are loads on the sensor, the opposite of reactions on the rod: {text} {agreement}")
-        }
-        (true, _, _) => format!("the physics prefers {text}: it {agreement}"),
-    };
-    file.fact("frame", found);
-    if *is_decided && best.explained < SHARE {
-        let why = "many samples fit neither contact condition: friction, a rod or clamp of another kind, or reactions with an offset; the frame \
-                   follows from the work";
-        file.fact("contact", why);
-    }
+/// The hypothesis in words, with how well it agrees.
+fn agreement(rated: &Rated, columns: &[Measured; 6]) -> String {
+    let names = [3, 4, 5].map(|k: usize| columns[k].name.as_str());
+    let reversed = (0..3).filter(|k| rated.hypothesis.reversed[*k]);
+    let reversed: String = reversed.map(|k| format!(", {} reversed", columns[k].name)).collect();
+    let (explained, energy) = (100.0 * rated.explained, rated.energy);
+    format!(
+        "{}{reversed}: {explained:.0} % of the contact explained, concordance of work and elastic energy {energy:+.2}",
+        rated.hypothesis.frame.text(names)
+    )
 }
 
-fn stiffness(file: &mut InspectedFile, verdict: &FrameVerdict, rod: Option<&Rod>) {
+fn report(file: &mut InspectedFile, found: &Verdict, columns: &[Measured; 6], has_rod: bool) {
+    let best = &found.best;
+    let of = if has_rod { "" } else { ", with stiffness and length as the recording suggests" };
+    let next = found.others.first().map_or_else(String::new, |next| format!("; next {}", agreement(next, columns)));
+    let Hypothesis { frame, reversed, .. } = best.hypothesis;
+    let is_as_is = frame.is_as_is() && reversed == [false; 3];
+    let is_load = frame.is_load() && reversed == [false; 3];
+    let begin = match (best.fits(), found.is_decided) {
+        (false, _) => "no axes, signs and units agree with the physics; the best",
+        (true, false) => "the physics does not determine axes and signs: it fits",
+        (true, true) if is_as_is => "the physics confirms",
+        (true, true) if is_load => "the columns are loads on the sensor, the opposite of reactions on the rod:",
+        (true, true) => "the physics prefers",
+    };
+    file.fact("frame", format!("{begin} {}{next}{of}", agreement(best, columns)));
+}
+
+fn stiffness(file: &mut InspectedFile, best: &Rated, rod: Option<&Rod>) {
     let Some(rod) = rod else { return };
-    let ratio = verdict.best.stiffness;
+    let ratio = best.stiffness;
     if (ratio - 1.0).abs() > STIFFNESS {
         let found = format!(
             "{:.4e} N m^2 by the line of tangential contacts, {ratio:.3} times that of the rod",
@@ -136,17 +231,93 @@ fn stiffness(file: &mut InspectedFile, verdict: &FrameVerdict, rod: Option<&Rod>
     }
 }
 
-/// The question where the units that the file states contradict the rod.
-fn contradiction(columns: &Reacting, verdict: &FrameVerdict, rod: &Rod) -> Question {
-    let ratio = verdict.best.stiffness;
-    let [x, y, z] = &columns.names;
+/// The question where nothing explains the reactions.
+fn misfit(file: &mut InspectedFile, best: &Rated, columns: &[Measured; 6]) {
+    let text = format!(
+        "no axes, signs and units explain the reactions (at best {:.0} % of the contact, and a concordance of work and energy of {:+.2}): is the sensor \
+         turned by no multiple of 90 degrees, its origin not at the clamp, phi0 not the angle of the rod at the clamp, another rod in it, \
+         an offset, much friction?",
+        100.0 * best.explained,
+        best.energy
+    );
+    file.questions.push(Question { text, answers: vec![as_they_are(columns)] });
+}
+
+/// The option that settles everything: all units of the reactions.
+fn as_they_are(columns: &[Measured; 6]) -> String {
+    let units = columns[3..].iter().map(|column| {
+        let sign = if column.is_turned { "-" } else { "" };
+        let unit = column.unit.map_or_else(|| "UNIT".to_owned(), |unit| format!("{sign}{unit}"));
+        format!("--unit {}", quoted(&format!("{}={unit}", column.name)))
+    });
+    format!("{} (all is as it is written)", units.collect::<Vec<_>>().join(" "))
+}
+
+/// The question where several hypotheses are about as probable.
+fn choose(file: &mut InspectedFile, found: &Verdict, columns: &[Measured; 6], units: &[Vec<Candidate>; DIMENSIONS]) {
+    let near = found.others.iter().take_while(|other| found.best.score() - other.score() < MARGIN);
+    let all: Vec<&Rated> = std::iter::once(&found.best).chain(near).collect();
+    let answers = all.iter().map(|rated| {
+        let options = options(columns, &rated.hypothesis, units);
+        let options = if options.is_empty() { as_they_are(columns) } else { options.join(" ") };
+        format!("{}: {options}", agreement(rated, columns))
+    });
+    let text = "which is it? The physics does not determine, or hardly, which columns are reversed".to_owned();
+    file.questions.push(Question { text, answers: answers.collect() });
+}
+
+/// Options for axes and signs of a hypothesis, and for the units that it changes.
+fn options(columns: &[Measured; 6], hypothesis: &Hypothesis, units: &[Vec<Candidate>; DIMENSIONS]) -> Vec<String> {
+    let mut options = Vec::new();
+    for (place, (column, is_turned, unit)) in as_hypothesis(columns, hypothesis, units).into_iter().enumerate() {
+        if column.name != columns[place].name {
+            options.push(format!("--column {}", quoted(&format!("{}={}", column.role, column.name))));
+        }
+        if is_turned != column.is_turned || Some(unit) != column.unit || column.name != columns[place].name {
+            let sign = if is_turned { "-" } else { "" };
+            options.push(format!("--unit {}", quoted(&format!("{}={sign}{unit}", column.name))));
+        }
+    }
+    options
+}
+
+/// The columns with their roles, signs and units under a hypothesis.
+fn as_hypothesis(
+    columns: &[Measured; 6],
+    hypothesis: &Hypothesis,
+    units: &[Vec<Candidate>; DIMENSIONS],
+) -> Vec<(Measured, bool, &'static str)> {
+    let order = if hypothesis.frame.swapped { [0, 1, 2, 4, 3, 5] } else { [0, 1, 2, 3, 4, 5] };
+    let turns = [hypothesis.reversed, hypothesis.frame.turned].concat();
+    let of = |(place, turned): (usize, bool)| {
+        let role = columns[place].role;
+        let column = Measured { role, ..columns[order[place]].clone() };
+        let of = column.dimension();
+        let chosen = hypothesis.units[of];
+        let unit = if chosen == 0 { column.unit.unwrap_or(units[of][0].unit) } else { units[of][chosen].unit };
+        let is_turned = turned != column.is_turned;
+        (column, is_turned, unit)
+    };
+    turns.into_iter().enumerate().map(of).collect()
+}
+
+/// The question where the units that the file states contradict the physics.
+fn contradicted(file: &mut InspectedFile, names: Vec<&str>, unit: &str) {
+    let listed = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let text = format!("the file states another unit, but the physics fits {listed} in {unit}: which is right?");
+    let answer = |name: &&str| format!("--unit {} (or the unit as it is written)", quoted(&format!("{name}={unit}")));
+    file.questions.push(Question { text, answers: names.iter().map(answer).collect() });
+}
+
+/// The question where the stiffness is not that of the rod.
+fn other_rod([x, y, z]: [&str; 3], ratio: f64, rod: &Rod) -> Question {
     let stiffness = rod.bending_stiffness();
     Question {
         text: format!(
             "the reactions give {ratio:.3e} times the bending stiffness of the rod ({stiffness:.4e} N m^2): is it another rod, or is a unit wrong? \
              Forces in mN taken for N give 1e-3, moments in N mm taken for N m give 1e6"
         ),
-        answers: vec![format!("--unit {x}=... --unit {y}=... --unit {z}=... (unchanged, if the rod is another one)")],
+        answers: vec![format!("--unit {x}=... --unit {y}=... --unit {z}=... (as they are, if the rod is another one)")],
     }
 }
 
@@ -161,40 +332,63 @@ fn ask(file: &mut InspectedFile, [x, y, z]: [&str; 3]) {
     });
 }
 
-/// Columns and units as the frame asks for them.
-fn options(
-    file: &mut InspectedFile,
-    proposal: &mut Proposal,
-    columns: &Reacting,
-    verdict: &FrameVerdict,
-    has_rod: bool,
-) {
-    let best = &verdict.best;
-    let [x, y, z] = [0, 1, 2];
-    let order = if best.frame.swapped { [y, x, z] } else { [x, y, z] };
-    for (meaning, column) in order.into_iter().enumerate() {
-        let name = &columns.names[column];
-        if best.frame.swapped && meaning < 2 {
-            proposal.set_column([Role::F0x, Role::F0y][meaning], name);
-        }
-        let is_force = meaning < 2;
-        let is_by_rod = has_rod && !columns.is_written[column];
-        let by_rod = unit_name(best.units[usize::from(!is_force)], is_force);
-        let Some(unit) = (if is_by_rod { Some(by_rod) } else { columns.units[column] }) else { continue };
-        let is_turned = best.frame.turned[meaning] != columns.is_turned[column];
-        // a column that is not what its own name says has no unit without a word
-        let is_renamed = best.frame.swapped && is_force;
-        let signed = format!("{}{unit}", if is_turned { "-" } else { "" });
-        if let Some(described) = file.columns.get_mut(columns.columns[column]) {
-            described.meaning = Some(["f0x", "f0y", "m0z"][meaning].to_owned());
-            described.unit = Some(signed.clone());
-            if is_by_rod && columns.units[column] != Some(by_rod) {
-                described.unit_certainty = Certainty::Likely;
-                "the stiffness of the rod".clone_into(&mut described.unit_why);
+impl Preferred {
+    /// Puts roles, signs and units of some of the columns into the options of their table.
+    pub fn apply(
+        &self,
+        file: &mut InspectedFile,
+        proposal: &mut Proposal,
+        columns: &[Measured; 6],
+        samples: &[Sample],
+        only: std::ops::Range<usize>,
+    ) {
+        let mut changed = Vec::new();
+        for (place, (column, is_turned, unit)) in
+            as_hypothesis(columns, &self.hypothesis, &self.units).into_iter().enumerate()
+        {
+            let of = column.dimension();
+            if !only.contains(&place) {
+                continue;
             }
+            // a column that is not what its own name says has no unit without a word
+            let is_renamed = self.hypothesis.frame.swapped && of == 2;
+            let is_sign = is_turned != column.is_turned;
+            let is_unit = self.are_units_decided[of] && Some(unit) != column.unit;
+            if is_renamed {
+                proposal.set_column(column.role, &column.name);
+            }
+            let Some(unit) = (if self.are_units_decided[of] { Some(unit) } else { column.unit }) else { continue };
+            if !(is_renamed || is_sign || is_unit) {
+                continue;
+            }
+            let signed = format!("{}{unit}", if is_turned { "-" } else { "" });
+            if let Some(described) = file.columns.get_mut(column.column) {
+                described.meaning = Some(column.role.to_string());
+                described.unit = Some(signed.clone());
+                described.unit_certainty = Certainty::Likely;
+                if is_unit {
+                    "the physics of the contacts".clone_into(&mut described.unit_why);
+                }
+            }
+            if column.says >= Says::Name {
+                changed.push(format!("{} = {signed} of `{}`", column.role, column.name));
+            }
+            proposal.set_unit(&column.name, signed);
         }
-        if is_turned || is_renamed || columns.units[column] != Some(unit) {
-            proposal.set_unit(name, signed);
+        let pose = |sample: &Sample| {
+            let sign = |k: usize| if self.hypothesis.reversed[k] { -1.0 } else { 1.0 };
+            let one = |of: usize| self.units[of][self.hypothesis.units[of]].factor;
+            let Pose { x, y, phi } = sample.pose;
+            Pose { x: sign(0) * one(0) * x, y: sign(1) * one(0) * y, phi: sign(2) * one(1) * phi }
+        };
+        let path = motion(&samples.iter().map(pose).collect::<Vec<_>>());
+        if let Some(fact) = file.facts.iter_mut().find(|fact| fact.what == MOTION)
+            && let Some(path) = path
+        {
+            fact.found = path;
+        }
+        if !changed.is_empty() {
+            file.fact("CHANGED", format!("against the names and units of the columns: {}", changed.join(", ")));
         }
     }
 }

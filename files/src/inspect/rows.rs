@@ -8,6 +8,13 @@ use vibrissa::hw::recording::{Cell, Quantity, Role, Row, RowProblem, Table, Tabl
 /// Steps of the time beyond this many usual ones are gaps.
 const GAP: f64 = 1.5;
 
+/// With more than one step of time in so many against the others the rows are in no order.
+const SHUFFLED: usize = 50;
+/// A mark of missing values is so many ranges of the other values away from them.
+const AWAY: f64 = 3.0;
+/// Rows in which a reading stays the same, or at its limit, at least: relative to all rows, and as a number.
+const STUCK: (usize, usize) = (50, 8);
+
 /// Describes the rows, and names their faults.
 pub(super) fn rows(file: &mut InspectedFile, table: &Table, guess: &TableGuess) {
     file.fact("rows", table.len().to_string());
@@ -18,6 +25,57 @@ pub(super) fn rows(file: &mut InspectedFile, table: &Table, guess: &TableGuess) 
         file.fact("repeated rows", format!("{count} with the values of the row before, the first in line {line}"));
     }
     cells(file, table, guess);
+    values(file, table, guess);
+}
+
+/// Names values that are no measurements: marks of missing ones, those of a stuck or clipped sensor.
+fn values(file: &mut InspectedFile, table: &Table, guess: &TableGuess) {
+    let loads = |quantity| matches!(quantity, Some(Quantity::Force | Quantity::Torque | Quantity::Raw));
+    for column in guess.columns.iter().filter(|column| loads(column.quantity) && !column.values.is_constant()) {
+        let name = &table.columns()[column.column].name;
+        let all: Vec<(u64, f64)> = table
+            .rows()
+            .filter_map(|row| Some((row.line(), row.number(column.column).ok()?)))
+            .filter(|(_, value)| value.is_finite())
+            .collect();
+        if let Some((mark, count, line)) = mark(&all) {
+            let value = format!("{mark} in {}, far from all others", counted(count, "row"));
+            file.fault(line, name.clone(), value, "an empty cell or NaN where there is no measurement");
+        }
+        let enough = (all.len() / STUCK.0).max(STUCK.1);
+        let limits = [column.values.least, column.values.most];
+        let at = limits.map(|limit| all.iter().filter(|(_, value)| *value == limit).count());
+        let is_clipped = |k: usize| limits[k] != 0.0 && at[k] >= enough;
+        if let Some(k) = [0, 1].into_iter().find(|k| is_clipped(*k)) {
+            let value = format!("exactly {}, its limit, in {}", limits[k], counted(at[k], "row"));
+            file.fault(
+                all.iter().find(|one| one.1 == limits[k]).map(|one| one.0),
+                name.clone(),
+                value,
+                "no clipped values",
+            );
+        }
+        let runs = all.chunk_by(|a, b| a.1 == b.1).filter(|run| run[0].1 != 0.0 && !limits.contains(&run[0].1));
+        if let Some(run) = runs.max_by_key(|run| run.len()).filter(|run| run.len() >= enough) {
+            let value = format!("{} in {} one after the other", run[0].1, counted(run.len(), "row"));
+            file.fault(run[0].0, name.clone(), value, "values that change: a sensor that is not stuck");
+        }
+    }
+}
+
+/// A value that is far from all others, in how many rows, and the line of the first.
+fn mark(all: &[(u64, f64)]) -> Option<(f64, usize, u64)> {
+    let mut sorted: Vec<f64> = all.iter().map(|one| one.1).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let (least, most) = (*sorted.first()?, *sorted.last()?);
+    [least, most].into_iter().find_map(|mark| {
+        let others = || sorted.iter().copied().filter(|value| *value != mark);
+        let (low, high) = others().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+        let count = sorted.len() - others().count();
+        let gap = (low - mark).max(mark - high);
+        let line = all.iter().find(|one| one.1 == mark)?.0;
+        (count > 1 && 2 * count < sorted.len() && gap > AWAY * (high - low)).then_some((mark, count, line))
+    })
 }
 
 fn times(file: &mut InspectedFile, table: &Table, guess: &TableGuess) {
@@ -56,7 +114,11 @@ fn times(file: &mut InspectedFile, table: &Table, guess: &TableGuess) {
     }
     if let Some((line, value)) = late_at {
         let value = format!("{value} in the first of {}", counted(late, "row"));
-        file.fault(line, name.clone(), value, "a time later than that of the row before");
+        if SHUFFLED * column.values.rises.min(column.values.falls) > column.values.numbers {
+            file.prevents(line, name.clone(), value, "rows in the order of time: sort them");
+        } else {
+            file.fault(line, name.clone(), value, "a time later than that of the row before");
+        }
     }
 }
 

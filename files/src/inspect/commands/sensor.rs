@@ -2,9 +2,8 @@
 
 use super::{is_answered, rod, scan, start, tried};
 use crate::inspect::InspectOptions;
-use crate::inspect::frame::ReactionFrame;
 use crate::inspect::look::{Content, Look};
-use crate::inspect::physics::{Reacting, physics};
+use crate::inspect::physics::{Measured, Says, physics};
 use crate::inspect::proposal::{Proposal, name_of};
 use crate::inspect::report::{InspectedFile, Question, ReadCommand};
 use crate::inspect::setup_text::{Components, SetupText};
@@ -50,6 +49,7 @@ pub(super) fn sensor(
     let (place, spec) = match stage {
         Some(stage) => {
             times(looks, k, stage);
+            proposal = looks[k].proposal.clone();
             let path = looks[stage].path.clone();
             let name = path.display().to_string();
             looks[k].report.fact("stage", format!("{name} has the poses of these times"));
@@ -63,7 +63,7 @@ pub(super) fn sensor(
             ("table:STAGE.csv".to_owned(), None)
         }
     };
-    let of_stage = stage.map(|stage| looks[stage].proposal.clone());
+    let mut of_stage = stage.map(|stage| looks[stage].proposal.clone());
     let is_settled = is_answered(&looks[k].report) && stage.is_none_or(|stage| is_answered(&looks[stage].report));
     let mut reads = false;
     if is_settled {
@@ -74,20 +74,34 @@ pub(super) fn sensor(
         if let Some(found) = first.and_then(|first| scan(options, first, spec.clone(), read.clone())) {
             let samples = tried(&found, &looks[k].path, &mut looks[k].report);
             reads = samples.is_some();
-            if let Some(samples) = samples.filter(|_| options.setup.is_none()) {
-                let columns = Reacting {
-                    names: ["-Fx", "-Fy", "-Tz"].map(str::to_owned),
-                    columns: [0; 3],
-                    is_written: [true; 3],
-                    is_given: false,
-                    units: [Some("N"), Some("N"), Some("N m")],
-                    is_turned: [false; 3],
-                    is_own: false,
+            if let Some(samples) = samples.filter(|_| options.setup.is_none())
+                && let Some(stage) = stage
+                && let [Some(x), Some(y), Some(phi)] =
+                    [Role::X0, Role::Y0, Role::Phi0].map(|role| looks[stage].measured(role, options))
+            {
+                let reaction = |(role, name, unit): (Role, &str, &'static str)| Measured {
+                    role,
+                    name: name.to_owned(),
+                    column: 0,
+                    unit: Some(unit),
+                    is_turned: false,
+                    says: Says::File,
                 };
-                let rod = rod(options).map(|rod| &rod.rod);
-                setup.frame = physics(&mut looks[k].report, &samples, &columns, rod, None);
-                settle_sense(&mut looks[k].report, setup.frame);
-                reads = looks[k].report.questions.is_empty();
+                let [fx, fy, mz] =
+                    [(Role::F0x, "-Fx", "N"), (Role::F0y, "-Fy", "N"), (Role::M0z, "-Tz", "N m")].map(reaction);
+                let mut columns = [x, y, phi, fx, fy, mz];
+                columns[..3].iter_mut().for_each(|column| column.name = format!("stage:{}", column.name));
+                let found = physics(&mut looks[k].report, &samples, &columns, false, rod(options).map(|rod| &rod.rod));
+                if let Some(found) = found {
+                    columns[..3].iter_mut().for_each(|column| column.name = column.name.replacen("stage:", "", 1));
+                    let stage = &mut looks[stage];
+                    found.apply(&mut stage.report, &mut stage.proposal, &columns, &samples, 0..3);
+                    of_stage = Some(stage.proposal.clone());
+                    setup.frame = Some(found.frame);
+                } else {
+                    settle_sense(&mut looks[k].report);
+                }
+                reads = is_answered(&looks[k].report);
             }
         }
     }
@@ -110,17 +124,14 @@ pub(super) fn sensor(
 }
 
 /// Asks for the frame of a sensor where the physics does not decide it.
-fn settle_sense(file: &mut InspectedFile, frame: Option<ReactionFrame>) {
-    if frame.is_some() {
-        return;
-    }
-    file.questions.pop();
-    file.questions.push(Question {
-        text: "along which axes of the scene does the sensor lie, and does it measure loads or reactions?".to_owned(),
-        answers: vec![
-            "--setup FILE with axes and sense in [mounting]; --write-setup FILE makes one to begin with".to_owned(),
-        ],
-    });
+fn settle_sense(file: &mut InspectedFile) {
+    let answer =
+        "--setup FILE with axes and sense in [mounting]; --write-setup FILE makes one to begin with".to_owned();
+    let Some(asked) = file.questions.pop() else { return };
+    let text = format!("along which axes of the scene does the sensor lie, and is it load or reaction? {}", asked.text);
+    // options for columns of the sensor would name components; those of the stage are options as they are
+    let of_stage = asked.answers.into_iter().filter(|answer| answer.contains("stage:"));
+    file.questions.push(Question { text, answers: [vec![answer], of_stage.collect()].concat() });
 }
 
 /// The name of the setup file that is made.
@@ -164,8 +175,21 @@ fn incomplete(look: &mut Look, setup: &mut SetupText) {
     setup.components = Some(Components { columns, units });
 }
 
-/// Compares the times of a sensor and of its stage.
+/// Compares the times of a sensor and of its stage. Where a unit is not written, it is the one with the longest common part.
 fn times(looks: &mut [Look], sensor: usize, stage: usize) {
+    let units = |k: usize| looks[k].time_units();
+    let both = || units(sensor).into_iter().flat_map(|a| units(stage).into_iter().map(move |b| (a, b)));
+    let common = |a: &'static str, b: &'static str| {
+        let ([first, last], [from, to]) = (looks[sensor].times_in(a)?, looks[stage].times_in(b)?);
+        Some((last.min(to) - first.max(from)) / (last.max(to) - first.min(from)).max(f64::MIN_POSITIVE))
+    };
+    let rated = both().filter_map(|(a, b)| Some((a, b, common(a, b)?)));
+    // the first of those that are alike: the guesses of both, or SI
+    let best = rated.reduce(|best, other| if other.2 > best.2 + 0.1 { other } else { best });
+    if let Some((of_sensor, of_stage, _)) = best {
+        looks[sensor].set_time_unit(of_sensor);
+        looks[stage].set_time_unit(of_stage);
+    }
     let (Some([first, last]), Some([from, to])) = (looks[sensor].times(), looks[stage].times()) else { return };
     let common = (last.min(to) - first.max(from)).max(0.0);
     let part = common / (last - first).max(f64::MIN_POSITIVE);

@@ -134,7 +134,71 @@ pub fn guess(table: &Table, named: bool, map: &ColumnMap) -> TableGuess {
         taken.extend(role);
         column_guess(table, column, named, role, values)
     });
-    TableGuess { kind, columns: columns.collect() }
+    let mut columns: Vec<ColumnGuess> = columns.collect();
+    if matches!(kind, TableKind::Reactions | TableKind::Stage) {
+        one_unit_of_positions(table, &mut columns);
+    }
+    doubt_own_names(&mut columns);
+    TableGuess { kind, columns }
+}
+
+/// x0 and y0 have one unit: the one that one of them states, or that both together suggest.
+fn one_unit_of_positions(table: &Table, columns: &mut [ColumnGuess]) {
+    let places: Vec<usize> =
+        (0..columns.len()).filter(|k| matches!(columns[*k].role, Some(Role::X0 | Role::Y0))).collect();
+    let &[first, second] = &places[..] else { return };
+    let is_stated = |k: usize| columns[k].is_unit_written;
+    let (unit, basis) = match [is_stated(first), is_stated(second)] {
+        [true, true] => return,
+        [false, false] => {
+            let (a, b) = (&columns[first].values, &columns[second].values);
+            let both = ColumnSummary {
+                least: a.least.min(b.least),
+                most: a.most.max(b.most),
+                numbers: a.numbers + b.numbers,
+                ..*a
+            };
+            // the range is that of each: where the origin is, does not matter
+            let guess = units::of_positions(&both, a.range().max(b.range()));
+            let is_si = guess.unit.is_none_or(|unit| unit == si(crate::sample::Dimension::Length));
+            if is_si && columns[first].is_unit_known && columns[second].is_unit_known {
+                return;
+            }
+            (guess.unit, guess.basis)
+        }
+        [first_states, _] => {
+            let partner = &columns[if first_states { first } else { second }];
+            let why = format!("as that of `{}`", table.columns()[partner.column].heading);
+            (partner.unit, Basis { sureness: Sureness::Likely, why })
+        }
+    };
+    for k in places {
+        let column = &mut columns[k];
+        if !column.is_unit_written {
+            column.is_unit_known = column.is_unit_known && column.unit == unit;
+            (column.unit, column.unit_basis) = (unit, basis.clone());
+        }
+    }
+}
+
+/// The names of roles stand for SI units: where one of them does not, the others of forces and moments may not either.
+fn doubt_own_names(columns: &mut [ColumnGuess]) {
+    let is_pose = |column: &&ColumnGuess| matches!(column.role, Some(Role::X0 | Role::Y0 | Role::Phi0));
+    let is_bare = |column: &&ColumnGuess| column.is_recognized && !column.is_unit_written;
+    let is_doubtful = columns.iter().filter(is_pose).filter(is_bare).any(|column| !column.is_unit_known);
+    if !is_doubtful {
+        return;
+    }
+    for column in columns.iter_mut() {
+        if matches!(column.role, Some(Role::F0x | Role::F0y | Role::M0z))
+            && column.is_unit_known
+            && !column.is_unit_written
+        {
+            let why = "the name stands for SI, but those of the pose are not in SI".to_owned();
+            (column.unit, column.is_unit_known) = (None, false);
+            column.unit_basis = Basis { sureness: Sureness::Open, why };
+        }
+    }
 }
 
 fn by_names(table: &Table) -> Vec<Named> {

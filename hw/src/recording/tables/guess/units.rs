@@ -6,10 +6,12 @@ use super::{Basis, Sureness};
 use crate::sample::Unit;
 use std::f64::consts::TAU;
 
-/// Range of a position, m, beyond which it is taken for millimetres: no rod here is dragged over 2 m.
+/// Range of positions, m, beyond which they are taken for millimetres: no rod here is dragged over 2 m.
 const FARTHEST: f64 = 2.0;
-/// Step of a time, s, from which on it is taken for another unit: slower scans than two samples a second are rare.
-const SLOWEST: f64 = 0.5;
+/// Step of a time, s, from which on it may be in another unit, and from which on it must: a rate between 0.2 and 2 Hz in s is one
+/// between 200 Hz and 2 kHz in ms.
+const SLOW: f64 = 0.5;
+const SLOWEST: f64 = 5.0;
 /// Units of time, and how many of them a second has.
 const TIMES: [(&str, f64); 3] = [("s", 1.0), ("ms", 1e3), ("us", 1e6)];
 /// A time in seconds since 1970; in milliseconds, microseconds and nanoseconds it is a thousand times as much each.
@@ -25,7 +27,7 @@ pub(super) struct UnitGuess {
 pub(super) fn of_values(quantity: Quantity, values: &ColumnSummary) -> UnitGuess {
     let likely = |unit, why: String| UnitGuess { unit: Some(unit), basis: Basis { sureness: Sureness::Likely, why } };
     let open = |why: &str| UnitGuess { unit: None, basis: Basis { sureness: Sureness::Open, why: why.to_owned() } };
-    let (least, most, size) = (values.least, values.most, values.size());
+    let size = values.size();
     match quantity {
         Quantity::Angle if size > TAU => likely("deg", format!("values up to {size:.4} exceed a turn in radians")),
         Quantity::Angle if size == 0.0 => likely("rad", "0 in every unit".to_owned()),
@@ -37,18 +39,15 @@ pub(super) fn of_values(quantity: Quantity, values: &ColumnSummary) -> UnitGuess
             likely("rad", format!("{size:.4} rad is {:.0} degrees", size.to_degrees()))
         }
         Quantity::Angle => open("values within a turn of radians fit radians and degrees"),
-        Quantity::Position if size == 0.0 => likely("m", "0 in every unit".to_owned()),
-        Quantity::Position if values.range() > FARTHEST || size > 10.0 => {
-            likely("mm", format!("values from {least:.4} to {most:.4} are too far for metres"))
-        }
-        Quantity::Position if values.range() > 0.5 => open("values fit m and mm"),
-        Quantity::Position => likely("m", format!("values from {least:.4} to {most:.4} are too close for millimetres")),
+        Quantity::Position => of_positions(values, values.range()),
         Quantity::Time if size > EPOCH => {
             let power = ((size / EPOCH).log10() / 3.0).floor().clamp(0.0, 3.0);
             likely(["s", "ms", "us", "ns"][power as usize], "values count from 1970".to_owned())
         }
+        Quantity::Time if !values.is_growing() => open("the times do not grow"),
+        Quantity::Time if (SLOW..SLOWEST).contains(&values.step) => open("the steps fit s and ms"),
         Quantity::Time if values.step > 0.0 => {
-            match TIMES.into_iter().find(|(.., second)| values.step < SLOWEST * second) {
+            match TIMES.into_iter().find(|(.., second)| values.step < SLOW * second) {
                 Some((unit, second)) => likely(
                     unit,
                     format!("steps of {:.4} give {:.4} samples a second", values.step, second / values.step),
@@ -60,6 +59,21 @@ pub(super) fn of_values(quantity: Quantity, values: &ColumnSummary) -> UnitGuess
         Quantity::Force => open("values do not distinguish N from mN or counts"),
         Quantity::Torque => open("values do not distinguish N m from N mm or counts"),
         _ => UnitGuess { unit: None, basis: Basis::sure("") },
+    }
+}
+
+/// The unit of positions that extend over this range at most.
+pub(super) fn of_positions(values: &ColumnSummary, range: f64) -> UnitGuess {
+    let guess = |unit, sureness, why: String| UnitGuess { unit, basis: Basis { sureness, why } };
+    let (least, most, size) = (values.least, values.most, values.size());
+    if size == 0.0 {
+        guess(Some("m"), Sureness::Likely, "0 in every unit".to_owned())
+    } else if range > FARTHEST || size > 10.0 {
+        guess(Some("mm"), Sureness::Likely, format!("values from {least:.4} to {most:.4} are too far for metres"))
+    } else if range > 0.5 {
+        guess(None, Sureness::Open, "values fit m, cm and mm".to_owned())
+    } else {
+        guess(Some("m"), Sureness::Likely, format!("values from {least:.4} to {most:.4} are too close for millimetres"))
     }
 }
 
