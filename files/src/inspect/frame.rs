@@ -524,8 +524,9 @@ mod tests {
         ] {
             let samples = scan(friction, noise.clone());
             let found = (found(&samples, Some(&rod)), found(&samples, None));
-            // with friction no line tells the stiffness
-            assert_eq!(found, (4, if friction > 0.0 { 0 } else { 4 }), "{friction} {noise:?}");
+            // without a rod no line tells the stiffness where friction or an offset spoils it: then it asks
+            let is_line = friction == 0.0 && noise.offset.f0x == 0.0;
+            assert_eq!(found, (4, if is_line { 4 } else { 0 }), "{friction} {noise:?}");
         }
     }
 
