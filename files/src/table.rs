@@ -33,7 +33,7 @@ impl Table {
     }
 }
 
-/// Text of at most [`WIDEST`] characters, with an ellipsis where it was longer.
+/// Text of at most 200 characters, with an ellipsis where it was longer.
 pub fn shortened(text: String) -> String {
     match text.char_indices().nth(WIDEST) {
         Some(_) => text.chars().take(WIDEST - 1).chain(['…']).collect(),
