@@ -24,7 +24,7 @@ pub(super) struct Agreement {
     pub explained: f64,
     /// Share that some single contact explains.
     pub possible: f64,
-    /// The farthest contact but for a twentieth, in lengths of the rod.
+    /// The farthest contact but for a twentieth, in lengths of the rod; 1 where the length is not known.
     pub reach: f64,
     /// Steps of the scan in contact: work of the clamp along x, y and its angle, and the change of the elastic energy, J.
     steps: Vec<[f64; 4]>,
@@ -46,7 +46,8 @@ pub(super) fn agreement(samples: &[Sample], noise: [f64; 2], stiffness: f64, len
     if contacts.len() < FEWEST {
         return None;
     }
-    let length = length.or_else(|| length_of(&contacts))?;
+    let known = length;
+    let length = known.or_else(|| length_of(&contacts))?;
     let share = |holds: &dyn Fn(&Touched) -> bool| {
         contacts.iter().filter(|touched| holds(touched)).count() as f64 / contacts.len() as f64
     };
@@ -57,7 +58,8 @@ pub(super) fn agreement(samples: &[Sample], noise: [f64; 2], stiffness: f64, len
     });
     let mut places: Vec<f64> = contacts.iter().map(|touched| touched.s).filter(|s| s.is_finite()).collect();
     places.sort_unstable_by(f64::total_cmp);
-    let reach = places.get(places.len() * 19 / 20)? / length;
+    let farthest = *places.get(places.len() * 19 / 20)?;
+    let reach = known.map_or(1.0, |length| farthest / length);
     let energies: Vec<f64> = found
         .iter()
         .zip(samples)

@@ -23,8 +23,10 @@ const SHARE: f64 = 0.7;
 /// The concordance of work and energy then, at least. Work ten times too large has 0.2, and 2.5 times 0.7; the best of wrong hypotheses had
 /// 0.44 where phi0 was wrong by 90 degrees, and where all reactions were twice too large.
 const WEAK_WORK: f64 = 0.5;
-/// With this concordance the conditions need not be satisfied: friction, a taper and springs spoil them, the work hardly.
+/// With this concordance fewer need to satisfy the conditions: friction, a taper and springs spoil them, the work hardly. A friction of 0.2 left
+/// 20 %. Where objects are on both sides of the rod, 3 to 10 % satisfy them, and the work of wrong frames had a concordance of up to 0.88.
 const WORK: f64 = 0.7;
+const FEW: f64 = 0.15;
 /// Number of independent observations that each of the three measures of agreement is worth. Consecutive samples are not independent,
 /// and contacts that are not single spoil many of them alike. Larger: more is decided, and more of it wrongly.
 const INDEPENDENT: f64 = 10.0;
@@ -163,7 +165,9 @@ impl Rated {
 
     /// Whether it explains the recording at all.
     pub fn fits(&self) -> bool {
-        (self.explained >= SHARE && self.energy >= WEAK_WORK || self.energy >= WORK) && self.reach > NEAREST
+        let is_explained = self.explained >= SHARE && self.energy >= WEAK_WORK;
+        let is_by_work = self.explained >= FEW && self.energy >= WORK;
+        (is_explained || is_by_work) && self.reach > NEAREST
     }
 }
 
@@ -524,9 +528,8 @@ mod tests {
         ] {
             let samples = scan(friction, noise.clone());
             let found = (found(&samples, Some(&rod)), found(&samples, None));
-            // without a rod no line tells the stiffness where friction or an offset spoils it: then it asks
-            let is_line = friction == 0.0 && noise.offset.f0x == 0.0;
-            assert_eq!(found, (4, if is_line { 4 } else { 0 }), "{friction} {noise:?}");
+            // with friction no line gives the stiffness
+            assert_eq!(found, (4, if friction > 0.0 { 0 } else { 4 }), "{friction} {noise:?}");
         }
     }
 
