@@ -194,17 +194,8 @@ pub enum Finding {
         from: usize,
         /// The first sample after it.
         to: usize,
-    },
-    /// One contour explains the recording, and leaves many labels open.
-    Undetermined {
-        /// Share of wrong labels to be expected: the mean of 1 - probability.
-        share: f64,
-        /// The label of the run that is least sure.
-        label: Label,
-        /// Its first sample.
-        from: usize,
-        /// The first sample after it.
-        to: usize,
+        /// Whether one contour explains the recording: then it leaves them open, and there is no misfit.
+        is_explained: bool,
     },
     /// No contact on this rod, with the stiffness of the line, explains a large part of the samples.
     Unexplained {
@@ -229,16 +220,13 @@ impl Finding {
 
     /// Whether a part of the result is missing or may be wrong, though recording, units and rod may fit together.
     pub fn is_warning(&self) -> bool {
-        matches!(
-            self,
-            Self::Uncertain { .. } | Self::Undetermined { .. } | Self::Frozen { .. } | Self::KinksWithin { .. }
-        )
+        matches!(self, Self::Uncertain { .. } | Self::Frozen { .. } | Self::KinksWithin { .. })
     }
 
     /// Whether recording, units and rod do not fit together.
     pub fn is_misfit(&self) -> bool {
         match self {
-            Self::NoContact | Self::NoLine | Self::KinksWithin { .. } | Self::Undetermined { .. } => false,
+            Self::NoContact | Self::NoLine | Self::KinksWithin { .. } => false,
             Self::Length { given, suggested } => (suggested / given - 1.0).abs() > MISFIT_LENGTH,
             Self::Intercept { part, .. } | Self::MomentOffset { part, .. } => part.abs() > MISFIT_SHIFT,
             Self::Unexplained { tangential, .. } => *tangential,
@@ -254,7 +242,7 @@ impl Finding {
             | Self::FrictionAgainst { .. }
             | Self::Budget { .. } => true,
             Self::Misfit { .. } | Self::Unanswered { .. } | Self::Lost { .. } | Self::Coarse { .. } => true,
-            Self::Uncertain { share, .. } => *share > MISFIT_LABELS,
+            Self::Uncertain { share, is_explained, .. } => !is_explained && *share > MISFIT_LABELS,
             Self::Frozen { share, .. } => *share > MISFIT_FROZEN,
             Self::Angle { largest } => *largest > MISFIT_ANGLE,
             Self::Way { lengths } => *lengths > MISFIT_WAY,
@@ -382,19 +370,15 @@ impl fmt::Display for Finding {
                  the connection, and that the loads are within the range of the sensor",
                 100.0 * share
             ),
-            Self::Uncertain { share, label, from, to } => write!(
+            Self::Uncertain { share, label, from, to, is_explained } => write!(
                 f,
-                "about {:.0} % of the labels may be wrong (mean of 1 - probability), the least certain {label} in samples {from} to {}: \
-                 scan more slowly, or with less noise",
+                "about {:.0} % of the labels may be wrong (mean of 1 - probability), the least certain {label} in samples {from} to {}: {}",
                 100.0 * share,
-                to - 1
-            ),
-            Self::Undetermined { share, label, from, to } => write!(
-                f,
-                "about {:.0} % of the labels may be wrong (mean of 1 - probability), the least certain {label} in samples {from} to {}: the \
-                 forces there do not determine the contact points well; scan closer to the object, or with less noise",
-                100.0 * share,
-                to - 1
+                to - 1,
+                match is_explained {
+                    true => "the forces there do not determine the contact points well; scan closer to the object, or with less noise",
+                    false => "scan more slowly, or with less noise",
+                }
             ),
             Self::Angle { largest } => {
                 write!(f, "phi0 reaches {largest:.4} rad: is it in degrees? Expected radians")

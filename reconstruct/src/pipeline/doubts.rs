@@ -59,13 +59,7 @@ impl Reconstruction {
         let frozen = self.readings.iter().filter(|reading| is_frozen(reading)).count();
         // what does not fit makes labels uncertain, too
         if findings.is_empty() {
-            let finding = |(share, label, run): (f64, Label, Range<usize>)| Finding::Uncertain {
-                share,
-                label,
-                from: run.start,
-                to: run.end,
-            };
-            findings.extend(self.least_sure(UNCERTAIN).map(finding));
+            findings.extend(self.uncertain(UNCERTAIN, false));
         }
         findings.extend(self.kinks_within());
         if let Some(from) = self.readings.iter().position(is_frozen) {
@@ -89,12 +83,11 @@ impl Reconstruction {
 
     /// The labels that a contour leaves open which explains the recording ([`Reconstruction::adopt`]), where there are many.
     pub fn undetermined(&self) -> Option<Finding> {
-        let (share, label, run) = self.least_sure(UNDETERMINED)?;
-        Some(Finding::Undetermined { share, label, from: run.start, to: run.end })
+        self.uncertain(UNDETERMINED, true)
     }
 
-    /// The share of wrong labels to be expected, where it exceeds `least`, with the run that is least sure.
-    fn least_sure(&self, least: f64) -> Option<(f64, Label, Range<usize>)> {
+    /// The labels that are to be expected wrong, where their share exceeds `least`, with the run that is least sure.
+    fn uncertain(&self, least: f64, is_explained: bool) -> Option<Finding> {
         let wrong = |samples: &[Reading]| {
             let used = samples.iter().filter(|reading| !matches!(reading.touch, Err(Reason::Fault(_))));
             used.map(|reading| 1.0 - reading.probability).sum::<f64>()
@@ -106,7 +99,7 @@ impl Reconstruction {
         let counted = counted.filter(|(wrong, ..)| *wrong > MUCH * share * self.readings.len() as f64);
         let doubt = |run: &Range<usize>, wrong: f64| wrong / run.len().max(1) as f64;
         let (_, run, label) = counted.max_by(|u, v| doubt(&u.1, u.0).total_cmp(&doubt(&v.1, v.0)))?;
-        (share > least).then_some((share, label, run))
+        (share > least).then_some(Finding::Uncertain { share, label, from: run.start, to: run.end, is_explained })
     }
 }
 
