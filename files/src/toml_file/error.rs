@@ -78,36 +78,33 @@ impl Invalid {
     }
 }
 
-/// Something wrong at a place of a text that is not known here.
+/// What is wrong at a place of a text that is not known here, or at several places of a table.
 #[derive(Clone)]
 pub(crate) struct Fault {
+    /// The place of what is wrong, or of the table.
     span: Range<usize>,
-    message: String,
-    /// Of several faults in a table: each of them.
-    parts: Vec<Fault>,
+    /// What is wrong at each place; one at least.
+    parts: Vec<(Range<usize>, String)>,
 }
 
 impl Fault {
     pub fn new(span: Range<usize>, message: impl Into<String>) -> Self {
-        Self { span, message: message::with_short_numbers(message.into()), parts: Vec::new() }
+        let message = message::with_short_numbers(message.into());
+        Self { span: span.clone(), parts: vec![(span, message)] }
     }
 
     /// All that is wrong within a table: the message names the line of each fault that is not on the first line of the table. None where
     /// there is no fault; a single one stays what it is.
-    pub fn all(span: Range<usize>, faults: Vec<Self>) -> Option<Self> {
-        let single = |fault: Self| if fault.parts.is_empty() { vec![fault] } else { fault.parts };
-        let mut faults: Vec<Self> = faults.into_iter().flat_map(single).collect();
+    pub fn all(span: Range<usize>, mut faults: Vec<Self>) -> Option<Self> {
         if faults.len() < 2 {
             return faults.pop();
         }
-        let messages: Vec<&str> = faults.iter().map(Self::message).collect();
-        let message = messages.join("; ");
-        Some(Self { span, message, parts: faults })
+        Some(Self { span, parts: faults.into_iter().flat_map(|fault| fault.parts).collect() })
     }
 
-    /// What is wrong, without the place.
+    /// What is wrong, without the place: the first of several faults.
     pub fn message(&self) -> &str {
-        &self.message
+        self.parts.first().map_or("", |(_, message)| message)
     }
 
     /// Where it is.
@@ -117,23 +114,19 @@ impl Fault {
 
     /// The same, with more in the message.
     pub fn and(mut self, more: &str) -> Self {
-        self.message.push_str(more);
-        if let Some(last) = self.parts.last_mut() {
-            last.message.push_str(more);
+        if let Some((_, last)) = self.parts.last_mut() {
+            last.push_str(more);
         }
         self
     }
 
     /// The message, with the lines of several faults.
     fn message_in(&self, text: &str) -> String {
-        let line = |fault: &Self| line_at(text, fault.span.start);
-        let message = |part: &Self| match line(part) {
-            own if own == line(self) => part.message.clone(),
-            own => format!("{} (line {own})", part.message),
+        let own = line_at(text, self.span.start);
+        let message = |(span, message): &(Range<usize>, String)| match line_at(text, span.start) {
+            line if line == own => message.clone(),
+            line => format!("{message} (line {line})"),
         };
-        if self.parts.is_empty() {
-            return self.message.clone();
-        }
         self.parts.iter().map(message).collect::<Vec<_>>().join("; ")
     }
 
@@ -149,17 +142,17 @@ impl Fault {
             return Self::new(span, hint);
         }
         let written = text.get(fault.span.start..).and_then(|rest| rest.lines().next()).unwrap_or_default().trim();
-        if let Some(message) = message::duplicate(&fault.message, written) {
-            return Self { message, ..fault };
+        if let Some(message) = message::duplicate(fault.message(), written) {
+            return Self::new(fault.span, message);
         }
-        if !fault.message.starts_with("string values must be quoted") {
+        if !fault.message().starts_with("string values must be quoted") {
             return fault;
         }
         let message = format!(
             "the value is `{written}`, expected a number, or a text in quotes: \"{}\"",
             written.split('#').next().unwrap_or_default().trim()
         );
-        Self { message, ..fault }
+        Self::new(fault.span, message)
     }
 
     /// The error for the user: `table` is the text's tree, where it has one.
