@@ -187,6 +187,22 @@ fn as_scattered(blocks: &mut [Block]) {
 }
 
 impl Blocks {
+    /// The parts of segments along which each block is one of `asked`.
+    pub fn runs(&self, asked: &[bool]) -> Vec<Range<usize>> {
+        let mut runs = Vec::new();
+        for segment in &self.segments {
+            let mut start = segment.start;
+            while start < segment.end {
+                let end = (start..segment.end).find(|k| asked[*k] != asked[start]).unwrap_or(segment.end);
+                if asked[start] {
+                    runs.push(start..end);
+                }
+                start = end;
+            }
+        }
+        runs
+    }
+
     /// The segment of a block.
     pub fn segment_of(&self, block: usize) -> Range<usize> {
         let segment = self.segments.iter().find(|segment| segment.contains(&block));

@@ -28,10 +28,16 @@ pub(super) struct Forward<'a, R> {
 impl<R: PhysicalRod> Forward<'_, R> {
     /// The states at the poses of all blocks, each segment followed from equilibria of its own to both sides. So a snap of the model at
     /// another pose than that of the recording does not spoil what comes after it. None where no branch reaches; a segment in which nothing
-    /// is known of any contact has no states. `known` are states of a contour near by.
-    pub fn states(&self, blocks: &Blocks, poses: &[Pose], known: &[Option<State>]) -> Vec<Option<State>> {
+    /// is known of any contact has no states, nor has a block that is not `asked` for. `known` are states of a contour near by.
+    pub fn states(
+        &self,
+        blocks: &Blocks,
+        asked: &[bool],
+        poses: &[Pose],
+        known: &[Option<State>],
+    ) -> Vec<Option<State>> {
         let mut found: Vec<Option<State>> = vec![None; poses.len()];
-        for segment in &blocks.segments {
+        for segment in &blocks.runs(asked) {
             let mut failed = vec![false; segment.len()];
             for _ in 0..ANCHORS {
                 let force = |k: &usize| blocks.blocks[*k].clamp.reactions.xy().norm();
@@ -63,7 +69,8 @@ impl<R: PhysicalRod> Forward<'_, R> {
                 found[anchor] = Some(state);
             }
             let is_touching = |k: &usize| !blocks.blocks[*k].contacts.is_empty() || known[*k].is_some();
-            if segment.start > 0
+            if blocks.segments.iter().any(|whole| whole.start == segment.start)
+                && segment.start > 0
                 && found[segment.clone()].iter().all(Option::is_none)
                 && segment.clone().any(|k| is_touching(&k))
                 && let Some(before) = found[segment.start - 1].clone()

@@ -61,6 +61,8 @@ const MOST_EVALUATIONS: usize = 600;
 /// The same without errors that all samples share, where these may not be needed; and once more from the contour that was found.
 const WITHOUT_ERRORS: usize = 500;
 const AGAIN: usize = 200;
+/// Most evaluations for the starts that first explain a part of a recording, and then more and more of it.
+const GROWING: usize = 1500;
 
 /// Why there is no fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -234,26 +236,39 @@ pub fn fit_contour<R: PhysicalRod>(
     Ok(best.result(rod, samples, blocks, used, &uniform))
 }
 
-/// The best fit from some starts: the first that explains the recording, else the one of lowest cost.
+/// The best fit from some starts: the first that explains the recording, else the one of lowest cost. Those that first explain a part of it come
+/// last, with evaluations of their own.
 fn best_of<'a, R: PhysicalRod>(starts: &'a [Start], mut search: Search<'a, R>) -> Option<(Solved, &'a Blocks)> {
+    let (parts, whole): (Vec<&Start>, Vec<&Start>) = starts.iter().partition(|start| start.asked.contains(&false));
+    let mut best = None;
+    for (starts, evaluations) in [(whole, search.evaluations), (parts, GROWING)] {
+        search.evaluations = evaluations;
+        search_from(&starts, &mut search, &mut best);
+    }
+    best
+}
+
+fn search_from<'a, R: PhysicalRod>(
+    starts: &[&'a Start],
+    search: &mut Search<'a, R>,
+    best: &mut Option<(Solved, &'a Blocks)>,
+) {
     let is_done = |best: &Option<(Solved, &Blocks)>| best.as_ref().is_some_and(|best| best.0.goodness.explains);
-    let mut best: Option<(Solved, &Blocks)> = None;
     let mut begun = Vec::new();
     for start in starts {
-        match search.begun(start) {
-            Some(one) if one.solved.is_near() => search.improve(one, &mut best),
-            one => begun.extend(one),
+        if is_done(best) {
+            return;
         }
-        if is_done(&best) {
-            break;
+        match search.begun(start) {
+            Some(one) if one.solved.is_near() => search.improve(one, best),
+            one => begun.extend(one),
         }
     }
     begun.sort_by(|a, b| a.solved.preferred(&b.solved));
     for one in begun {
-        if is_done(&best) {
-            break;
+        if is_done(best) {
+            return;
         }
-        search.improve(one, &mut best);
+        search.improve(one, best);
     }
-    best
 }

@@ -22,7 +22,7 @@ const LOSS: Loss = Loss::Cauchy(6.0);
 const VERTEX: f64 = 3.0;
 /// Cost of a block that no branch of the model reaches: that of a residual of 1000 standard deviations. Smaller: contours win that lose bad
 /// blocks.
-const LOST: f64 = 368.0;
+pub(super) const LOST: f64 = 368.0;
 /// Residual of a block, standard deviations, from which on the model is on another branch than the rod. Smaller: what is not explained counts as
 /// not reached.
 const BRANCH: f64 = 20.0;
@@ -87,6 +87,8 @@ pub(super) struct Fit<'a, R> {
     pub curve: Curve,
     pub blocks: &'a Blocks,
     pub sources: &'a Sources,
+    /// Which blocks are to be explained; the others cost as much as if they were not reached.
+    pub asked: Vec<bool>,
     /// Standard deviation of the change of curvature over a length of way, 1/m per root of m.
     pub bend: f64,
     /// States of the best contour so far, and its cost.
@@ -104,6 +106,8 @@ pub(super) struct Explained {
     pub labels: Vec<Option<Label>>,
     /// Blocks, not beside jumps, that no branch reaches.
     pub unreached: usize,
+    /// Blocks of which nothing was asked.
+    pub others: usize,
 }
 
 impl Explained {
@@ -183,13 +187,25 @@ impl<'a, R: PhysicalRod> Fit<'a, R> {
     pub fn new(rod: &'a R, curve: Curve, blocks: &'a Blocks, sources: &'a Sources) -> Self {
         let states = vec![None; blocks.blocks.len()];
         let bend = BEND * rod.units().length.powf(-1.5);
-        Self { rod, curve, blocks, sources, bend, states, least: f64::INFINITY, evaluations: 0 }
+        let asked = vec![true; blocks.blocks.len()];
+        Self { rod, curve, blocks, sources, asked, bend, states, least: f64::INFINITY, evaluations: 0 }
     }
 }
 
 impl<R: PhysicalRod> Fit<'_, R> {
     fn errors(&self, x: &DVector<f64>) -> Errors {
         self.sources.errors(x.iter().skip(self.curve.count()))
+    }
+
+    /// How many blocks are to be explained.
+    pub fn count_asked(&self) -> usize {
+        self.asked.iter().filter(|asked| **asked).count()
+    }
+
+    /// What all blocks cost, without what is known of contour and errors before.
+    pub fn cost_of(&self, explained: &Explained) -> f64 {
+        let counted = explained.residuals.iter().zip(&self.blocks.blocks).filter(|(_, block)| !block.is_left_out);
+        counted.map(|(residual, _)| cost_of(residual.map(|residual| residual.norm()))).sum()
     }
 
     /// The blocks without the errors.
@@ -227,7 +243,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let mut model = self.model_with(x, curve, Vec::new())?;
         let poses: Vec<Pose> = model.corrected.iter().map(|one| one.pose).collect();
         let forward = Forward { rod: self.rod, curve: &model.curve, objects: &model.objects };
-        model.states = forward.states(self.blocks, &poses, &self.states);
+        model.states = forward.states(self.blocks, &self.asked, &poses, &self.states);
         Some(model)
     }
 
@@ -249,14 +265,15 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let mut explained = Explained::default();
         for (k, block) in self.blocks.blocks.iter().enumerate() {
             let state = states[k].as_ref();
-            let is_known = state.is_some() || self.is_free(k, states);
+            let is_known = self.asked[k] && (state.is_some() || self.is_free(k, states));
             let label = state.map_or(Label::Free, |state| Label::of(state.phase().contacts, state.phase().tip));
             explained.labels.push(is_known.then_some(label));
             let (is_known, model) = (is_known && means[k].is_some(), means[k].unwrap_or_default());
             let by_pose = state.map_or_else(Matrix3::zeros, |state| self.by_pose(objects, state));
             let residual = corrected[k].residual(&model, &by_pose, block);
             explained.residuals.push((is_known && !block.is_left_out).then_some(residual));
-            explained.unreached += usize::from(!is_known && !block.is_left_out);
+            explained.unreached += usize::from(self.asked[k] && !is_known && !block.is_left_out);
+            explained.others += usize::from(!self.asked[k] && !block.is_left_out);
         }
         let jumps = self.blocks.segments.iter().zip(self.blocks.segments.iter().skip(1));
         for (before, after) in jumps {
@@ -353,7 +370,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let (first, stepped, means) = (self.curve.count(), self.stepped(x)?, self.means(at));
         let row = |k: usize| {
             let (block, state) = (&self.blocks.blocks[k], states[k].as_ref());
-            if state.is_none() && !self.is_free(k, states) {
+            if !self.asked[k] || state.is_none() && !self.is_free(k, states) {
                 return None;
             }
             let (here, model) = (&corrected[k], means[k].unwrap_or_else(|| self.reactions(state)));
@@ -424,7 +441,8 @@ impl<R: PhysicalRod> Problem for Fit<'_, R> {
             return NormalMatrix { cost: f64::INFINITY, ..NormalMatrix::empty(x.len()) };
         };
         let mut normal = self.prior(x, &curve);
-        for (_, row) in self.blocks.blocks.iter().zip(&rows).filter(|(block, _)| !block.is_left_out) {
+        let is_counted = |k: &usize| self.asked[*k] && !self.blocks.blocks[*k].is_left_out;
+        for row in (0..rows.len()).filter(is_counted).map(|k| &rows[k]) {
             if let Some(Row { residual, by }) = row {
                 let weight = LOSS.weight(1.0, residual.norm());
                 (0..3).for_each(|c| normal.add_weighted(&by[c], residual[c], weight));

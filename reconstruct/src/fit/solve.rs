@@ -5,12 +5,12 @@ use super::curve::{Curve, Node};
 use super::finer::finer;
 use super::flatten::flattened;
 use super::grow::{Grown, grown};
-use super::problem::{Explained, Fit, Model, Sources};
+use super::problem::{Explained, Fit, LOST, Model, Sources};
 use super::propose::{joined, sharpened};
 use super::simple::Best;
 use super::start::Start;
 use super::trim::touched;
-use super::verdict::Goodness;
+use super::verdict::{Goodness, MOST_UNREACHED};
 use super::{ContourFit, FittedBlock, FittedObject, Knowledge};
 use crate::least_squares::{Damped, Iterate, iterate};
 use crate::phase::Label;
@@ -52,6 +52,7 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
         let scaled = |chain: &Vec<Node>| chain.iter().map(|node| node.scaled(length)).collect();
         let curve = Curve::through(&start.chains.iter().map(scaled).collect::<Vec<_>>())?;
         let mut fit = Fit::new(self.rod, curve, &start.blocks, self.sources);
+        fit.asked.clone_from(&start.asked);
         let solved = self.solved(&mut fit, self.errors, ROUGHLY)?;
         Some(Begun { fit, solved })
     }
@@ -60,6 +61,7 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
     pub fn resumed(&mut self, best: &Solved, blocks: &'a Blocks) -> Option<Solved> {
         let mut fit = Fit::new(self.rod, best.curve.clone(), blocks, self.sources);
         (fit.states, fit.bend) = (best.states.clone(), best.bend);
+        fit.asked.clone_from(&best.asked);
         let again = self.solved(&mut fit, self.errors, ROUGHLY)?;
         let found = self.improved(&mut fit, again);
         found.preferred(best).is_lt().then_some(found)
@@ -69,13 +71,19 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
     fn improved(&mut self, fit: &mut Fit<'_, R>, mut best: Solved) -> Solved {
         // what is far off is changed before it is known well
         let mut is_rough = true;
-        for _ in 0..CHANGES {
-            if is_rough && best.is_near() {
+        let mut changes = 0;
+        while changes < CHANGES {
+            let asked = fit.count_asked();
+            if is_rough && best.is_near_where_asked() {
                 best = self.refined(fit, &best).unwrap_or(best);
                 is_rough = false;
             }
             match self.changed(&best, fit) {
-                Some(solved) => (is_rough, best) = (!solved.is_near(), solved),
+                Some(solved) => {
+                    // as long as more is explained, it goes on
+                    changes += usize::from(fit.count_asked() <= asked);
+                    (is_rough, best) = (!solved.is_near_where_asked(), solved);
+                }
                 None if is_rough && self.evaluations > 0 => {
                     best = self.refined(fit, &best).unwrap_or(best);
                     is_rough = false;
@@ -93,25 +101,28 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
             if self.evaluations == 0 {
                 break;
             }
-            (fit.curve, fit.states) = (best.curve.clone(), best.states.clone());
-            for (curve, states) in self.change(*change, best, fit) {
-                (fit.curve, fit.states, fit.bend) = (curve, states, bend);
+            (fit.curve, fit.states, fit.asked) = (best.curve.clone(), best.states.clone(), best.asked.clone());
+            for (curve, states, asked) in self.change(*change, best, fit) {
+                (fit.curve, fit.states, fit.bend, fit.asked) = (curve, states, bend, asked);
                 let rough = self.solved(fit, &errors, ROUGHLY).filter(|rough| rough.cost < HOPEFUL * best.cost);
                 let found =
-                    rough.and_then(|rough| if rough.is_near() { self.refined(fit, &rough) } else { Some(rough) });
+                    rough.and_then(
+                        |rough| if rough.is_near_where_asked() { self.refined(fit, &rough) } else { Some(rough) },
+                    );
                 if let Some(found) = found.filter(|found| found.is_worth(*change, best)) {
                     return Some(found);
                 }
             }
         }
         (fit.curve, fit.states, fit.bend) = (best.curve.clone(), best.states.clone(), bend);
+        fit.asked.clone_from(&best.asked);
         None
     }
 
     /// Improves a fit that has begun, and keeps it if it is to be preferred to the best one.
     pub fn improve(&mut self, begun: Begun<'a, R>, best: &mut Option<(Solved, &'a Blocks)>) {
-        // what one start takes is not left for the others
-        let kept = self.evaluations / KEPT;
+        // what one start takes is not left for the others; one that grows takes all
+        let kept = if begun.fit.asked.contains(&false) { 0 } else { self.evaluations / KEPT };
         self.evaluations -= kept;
         let Begun { mut fit, solved } = begun;
         let blocks = fit.blocks;
@@ -139,19 +150,19 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
     }
 
     /// Contours that a change gives, with states of a contour near by, for a fit that has the contour and the states of `best`.
-    fn change(&mut self, change: Change, best: &Solved, fit: &Fit<'_, R>) -> Vec<(Curve, Vec<Option<State>>)> {
+    fn change(&mut self, change: Change, best: &Solved, fit: &Fit<'_, R>) -> Vec<Changed> {
         let length = self.rod.units().length;
-        let with_states = |curve: Curve| (curve, best.states.clone());
+        let with_states = |curve: Curve| (curve, best.states.clone(), best.asked.clone());
         let through = |chains: Vec<Vec<Vec<Node>>>, most: usize| {
             chains.iter().take(most).filter_map(|chains| Curve::through(chains)).map(with_states).collect()
         };
         match change {
             Change::Grown => {
                 let errors = self.sources.errors(best.x.iter().skip(best.curve.count()));
-                let (found, evaluations) = grown(fit, errors, &best.curve, &best.explained);
+                let (found, evaluations) = grown(fit, errors, &best.curve);
                 self.evaluations = self.evaluations.saturating_sub(evaluations);
                 found
-                    .and_then(|Grown { chains, states }| Some((Curve::through(&chains)?, states)))
+                    .and_then(|Grown { chains, states, asked }| Some((Curve::through(&chains)?, states, asked)))
                     .into_iter()
                     .collect()
             }
@@ -172,6 +183,9 @@ pub(super) struct Begun<'a, R> {
     pub fit: Fit<'a, R>,
     pub solved: Solved,
 }
+
+/// A contour, states of one near by, and which blocks are to be explained.
+type Changed = (Curve, Vec<Option<State>>, Vec<bool>);
 
 /// What may be changed of a contour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -224,6 +238,7 @@ pub(super) struct Solved {
     bend: f64,
     explained: Explained,
     states: Vec<Option<State>>,
+    asked: Vec<bool>,
     pub goodness: Goodness,
 }
 
@@ -255,7 +270,9 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     let farthest = fit.sources.free.iter().enumerate().map(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let goodness = Goodness::of(&explained, &fit.blocks.blocks, determined, farthest);
     fit.states.clone_from(&states);
-    Some(Solved { x, curve, cost: equations.cost, covariance, bend: fit.bend, explained, states, goodness })
+    // of others nothing is known
+    let cost = equations.cost + LOST * explained.others as f64;
+    Some(Solved { x, curve, asked: fit.asked.clone(), cost, covariance, bend: fit.bend, explained, states, goodness })
 }
 
 impl Solved {
@@ -268,8 +285,15 @@ impl Solved {
 
     /// Whether some more steps may explain the recording.
     pub fn is_near(&self) -> bool {
+        self.is_near_where_asked() && !self.asked.contains(&false)
+    }
+
+    /// The same of the blocks that are to be explained.
+    fn is_near_where_asked(&self) -> bool {
         let goodness = &self.goodness;
-        !goodness.is_unreached() && goodness.chi_squared < NEAR * goodness.degrees_of_freedom
+        let (known, unreached) = (self.explained.residuals.iter().flatten().count(), self.explained.unreached);
+        unreached as f64 <= MOST_UNREACHED * (known + unreached) as f64
+            && goodness.chi_squared < NEAR * goodness.degrees_of_freedom
     }
 
     /// Errors less what is known of them, in standard deviations of their budget.
@@ -318,9 +342,9 @@ impl Solved {
         sources: &Sources,
         given: &Rod,
     ) -> ContourFit {
-        let Self { x, curve, covariance, bend, explained, goodness, states, .. } = self;
+        let Self { x, curve, covariance, bend, explained, goodness, states, asked, .. } = self;
         let mut fit = Fit::new(rod, curve.clone(), blocks, sources);
-        (fit.bend, fit.states) = (bend, states);
+        (fit.bend, fit.states, fit.asked) = (bend, states, asked);
         let model = fit.model_with(&x, curve.clone(), fit.states.clone());
         let told = |(label, state): (&Option<Label>, &Option<State>)| match state {
             Some(state) => label.map(|_| curve.label(&state.contacts, &covariance, given.length())),

@@ -1,6 +1,6 @@
 //! Contact points from which a fit starts.
 
-use super::blocks::Blocks;
+use super::blocks::{Block, Blocks};
 use super::curve::Node;
 use super::order::Touched;
 use super::outline::{Interpretation, outline};
@@ -45,10 +45,13 @@ impl Touched {
 }
 
 /// Where a fit starts.
+#[derive(Clone)]
 pub(super) struct Start {
     pub blocks: Blocks,
     /// The contour, rod lengths.
     pub chains: Vec<Vec<Node>>,
+    /// Which blocks are explained first.
+    pub asked: Vec<bool>,
 }
 
 /// Where the fit of a recording may start, the most likely first. `given` is a uniform rod of the length and the stiffness at the clamp of `rod`;
@@ -67,11 +70,18 @@ pub(super) fn starts<R: PhysicalRod>(
     let of = |blocks: &Blocks, points: &[Touched], readings: &[Interpretation]| {
         let points = &along_contours(points);
         let swept = Swept::of(rod, blocks, &errors);
-        let start =
-            |reading: &Interpretation| Start { blocks: blocks.clone(), chains: outline(points, *reading, &swept) };
+        let start = |reading: &Interpretation| Start {
+            chains: outline(points, *reading, &swept),
+            asked: vec![true; blocks.blocks.len()],
+            blocks: blocks.clone(),
+        };
         readings.iter().map(start).collect::<Vec<_>>()
     };
     let mut starts = of(&blocks, &points, &[answers, joined(answers), Interpretation { is_sharp: true, ..answers }]);
+    // what the local answer leaves open is explained later
+    let is_answered = |block: &Block| block.label == Label::Free || !block.contacts.is_empty();
+    let answered: Vec<bool> = blocks.blocks.iter().map(is_answered).collect();
+    let parts: Vec<Start> = starts.iter().map(|start| Start { asked: answered.clone(), ..start.clone() }).collect();
     let doubtful = doubtful(local);
     let certain: Vec<Touched> = points.iter().filter(|point| !doubtful.contains(&point.trace)).copied().collect();
     if certain.len() < points.len() {
@@ -82,10 +92,12 @@ pub(super) fn starts<R: PhysicalRod>(
         points.extend(singles);
         starts.extend(of(&blocks, &points, &[guesses, joined(guesses)]));
     }
-    let mut tried: Vec<Vec<Vec<Node>>> = Vec::new();
+    starts.extend(parts);
+    let mut tried: Vec<(Vec<Vec<Node>>, Vec<bool>)> = Vec::new();
     starts.retain(|start| {
-        let is_new = !start.chains.is_empty() && !tried.contains(&start.chains);
-        tried.push(start.chains.clone());
+        let this = (start.chains.clone(), start.asked.clone());
+        let is_new = !start.chains.is_empty() && !tried.contains(&this);
+        tried.push(this);
         is_new
     });
     starts

@@ -31,17 +31,19 @@ pub(super) fn touched(chains: &[Vec<Node>], states: &[Option<State>], length: f6
     chains.iter().map(of).collect()
 }
 
-/// The parts of chains that are touched, each with ends that leave free where the rod was. None where nothing is touched.
+/// The parts of chains that are touched, each with ends, of so many rod lengths at most, that leave free where the rod was. None where nothing is touched.
 pub(super) fn trimmed(
     chains: &[Vec<Node>],
     touched: &[Vec<bool>],
     swept: &Swept,
     length: f64,
+    most: f64,
 ) -> Option<Vec<Vec<Node>>> {
     let parts: Vec<Vec<Node>> =
         chains.iter().zip(touched).flat_map(|(chain, touched)| parts(chain, touched, GAP * length)).collect();
     let places: Vec<Vec<_>> = parts.iter().map(|part| part.iter().map(|node| node.at / length).collect()).collect();
     let with_ends = |(part, ways): (&Vec<Node>, [f64; 2])| {
+        let ways = ways.map(|way| way.min(most));
         let last = part.len() - 1;
         let end = |at: Vector2<f64>, along: Vector2<f64>, way: f64| {
             beyond(at / length, along.y.atan2(along.x), way, swept).into_iter().map(|node| node.scaled(length))

@@ -58,7 +58,7 @@ pub struct Goodness {
 const MOST_OFF: f64 = 5.0;
 
 /// Largest share of blocks that are not reached of a recording that is explained: those beside a jump that the model makes a little earlier.
-const MOST_UNREACHED: f64 = 0.02;
+pub(super) const MOST_UNREACHED: f64 = 0.02;
 
 /// Probability of a sum of squares as large or larger of so many degrees of freedom.
 pub(super) fn probability(chi_squared: f64, degrees_of_freedom: f64) -> f64 {
@@ -96,7 +96,8 @@ impl Goodness {
                 p_value: (3.0 * windows * p).min(1.0),
             }
         });
-        let unreached = explained.unreached as f64 / (explained.unreached + known.len()).max(1) as f64;
+        let lost = explained.unreached + explained.others;
+        let unreached = lost as f64 / (lost + known.len()).max(1) as f64;
         let mut found =
             Self { chi_squared, degrees_of_freedom, p_value, worst, unreached, farthest_error, explains: false };
         found.explains = p_value >= UNLIKELY
