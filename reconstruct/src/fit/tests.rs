@@ -324,6 +324,25 @@ fn a_disc_is_known_by_its_centre_and_radius() {
     }
 }
 
+/// An ellipse with radii of 277 +- 78 mm explained the 40 mm of a parabola that were touched.
+#[test]
+fn no_shape_is_reported_that_a_short_stretch_does_not_determine() {
+    let rod = steel();
+    let clamp = |x| Pose { x, y: -0.02, phi: std::f64::consts::FRAC_PI_2 };
+    let path = ClampPath::new(clamp(0.08), clamp(0.024)).unwrap();
+    let states = Sweep::new(&rod, &object(), path, 2e-5).unwrap().run().states;
+    for seed in [0, 1] {
+        let (fit, _) = explained(&rod, &states, seed);
+        assert!(fit.shapes.iter().any(|shape| shape.kind == ShapeKind::Parabola), "{:?}", fit.shapes);
+        let is_vague = |(name, _, sigma): &&(String, f64, f64)| {
+            !["coefficient", "rotation"].contains(&name.as_str()) && *sigma > 0.03
+        };
+        for shape in &fit.shapes {
+            assert_eq!(shape.parameters.iter().find(is_vague), None, "{}", shape.kind);
+        }
+    }
+}
+
 /// How often the true shape is found, and how far its parameters are off.
 #[test]
 #[ignore = "prints the numbers that the page on reconstruction names; a minute in release"]
