@@ -269,6 +269,13 @@ impl<'a> Family<'a> {
         start.iter().all(|value| value.is_finite()).then_some(start)
     }
 
+    /// The largest distance of two touched places.
+    pub fn extent(&self) -> f64 {
+        let pairs =
+            self.touched().enumerate().flat_map(|(k, one)| self.touched().skip(k + 1).map(move |other| (one, other)));
+        pairs.map(|(one, other)| (one.at - other.at).norm()).fold(0.0, f64::max)
+    }
+
     /// Whether what is touched bends as an outline that is convex does: the solid is on the left.
     fn is_convex(&self) -> bool {
         let touched: Vec<&Place> = self.touched().collect();

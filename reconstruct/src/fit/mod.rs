@@ -22,6 +22,7 @@ mod jumps;
 mod kinks;
 mod knowledge;
 mod means;
+mod needed;
 mod order;
 mod outline;
 mod pair;
@@ -47,6 +48,7 @@ use crate::pipeline::{Reading, Reconstruction};
 use crate::systematic::Source;
 use blocks::Blocks;
 use nalgebra::{DVector, Vector2};
+use needed::with_fewest_errors;
 use piece::Piece;
 use problem::Sources;
 use rod_contours::{Composite, Contour as _, ContourError};
@@ -154,7 +156,8 @@ pub struct ContourFit {
     pub objects: Vec<FittedObject>,
     /// Simple shapes that explain an object as well, the best of each object first; none where no contour explains the recording.
     pub shapes: Vec<SimpleShape>,
-    /// The errors that all samples share, in the units of the sources, with their standard deviations; empty where they are not estimated.
+    /// The errors that all samples share which the recording asks for, in the units of the sources, with their standard deviations, in which others may
+    /// be in their place; all others are as they are known. Empty where none is needed.
     pub errors: Vec<(Source, f64, f64)>,
     /// How well it explains the recording.
     pub goodness: Goodness,
@@ -186,7 +189,7 @@ impl ContourFit {
 
 /// Fits contour and shared errors to the `samples` of a recording, from its local answers `local` on. Errors are estimated if the local answer
 /// corrects some, or no contour explains the recording without; of a rod that is not uniform never, and of a uniform one none of its natural
-/// curvature.
+/// curvature. Of those only the ones stay free that the recording asks for, by evidence.
 ///
 /// The fit starts from the contact points that are answered, taken in several ways for a contour, and from those that single contacts would have
 /// wherever there is no answer. The first start that explains the recording wins, else the one of lowest cost.
@@ -233,7 +236,12 @@ pub fn fit_contour<R: PhysicalRod>(
             (best, used) = (found, &sources);
         }
     }
-    Ok(best.result(rod, samples, blocks, used, &uniform))
+    let is_explained_by_errors = best.goodness.explains && !used.free.is_empty();
+    let fewer = if is_explained_by_errors { with_fewest_errors(rod, used, &best, blocks) } else { None };
+    match fewer {
+        Some((best, sources)) => Ok(best.result(rod, samples, blocks, &sources, &uniform)),
+        None => Ok(best.result(rod, samples, blocks, used, &uniform)),
+    }
 }
 
 /// The best fit from some starts: the first that explains the recording, else the one of lowest cost. Those that first explain a part of it come

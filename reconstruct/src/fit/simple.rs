@@ -25,7 +25,8 @@ const GAIN: f64 = 0.05;
 /// from one to the next.
 const MOST: f64 = 1000.0;
 const HOPEFUL: f64 = 2.0;
-/// Standard deviations by which the size of a curve must differ from 0: less, and it may be any curve.
+/// Standard deviations by which the size of a curve must differ from 0, and which the extent of what is touched must have of each place, radius and (per
+/// radian) rotation. Smaller: shapes are reported that the recording does not determine.
 const KNOWN: f64 = 3.0;
 
 /// A simple shape that explains what a recording tells of a part of the contour.
@@ -72,6 +73,21 @@ fn power_of(name: &str) -> i32 {
 /// Whether a parameter is the size of a curve.
 fn is_size(name: &str) -> bool {
     ["radius", "radii[0]", "radii[1]", "coefficient"].contains(&name)
+}
+
+/// Whether a recording determines a parameter of a shape of which it tells a part of this extent (m).
+///
+/// The size of a curve must differ from 0. A centre, vertex, corner or radius must be known better than the extent of the part: on a short stretch many
+/// curves explain the recording as well as each other, with centres far beyond it, and the best one says nothing of the object. So must a rotation, which
+/// moves the ends of the part by as much.
+fn is_determined((name, value, sigma): &(String, f64, f64), extent: f64) -> bool {
+    let most = match power_of(name) {
+        0 => 1.0,
+        1 => extent,
+        // nothing but the size itself compares with a curvature
+        _ => f64::INFINITY,
+    };
+    KNOWN * sigma < most && (!is_size(name) || value.abs() > KNOWN * sigma)
 }
 
 /// The best contour of a fit.
@@ -235,11 +251,11 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let there = self.part(best, &x, part.object, &part.touched)?;
         let family = found.family(&there.places);
         let parameters = found.named(&family, self.rod.units().length)?;
-        let is_known = |(name, value, sigma): &(String, f64, f64)| !is_size(name) || value.abs() > KNOWN * sigma;
+        let extent = family.extent() * self.rod.units().length;
         let is_one = p_value >= UNLIKELY
             && goodness.explains
             && family.is_shape(&found.parameters)
-            && parameters.iter().all(is_known);
+            && parameters.iter().all(|parameter| is_determined(parameter, extent));
         let (object, points) = (part.object, part.touched.clone());
         let evidence = chi_squared + free * each;
         is_one.then_some(SimpleShape { object, points, kind, parameters, chi_squared, p_value, evidence })
@@ -370,4 +386,19 @@ fn by_parameters(
     };
     let columns: Vec<DVector<f64>> = (0..parameters.len()).map(difference).collect::<Option<_>>()?;
     Some(DMatrix::from_columns(&columns))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shape_is_determined_where_it_is_known_better_than_the_extent_of_what_is_touched() {
+        let of = |name: &str, value, sigma| is_determined(&(name.to_owned(), value, sigma), 0.01);
+        assert!(of("radius", 0.02, 0.003) && of("center.x", 0.0, 0.003));
+        // known to a hundredth, and nevertheless any curve along 10 mm
+        assert!(!of("radius", 0.4, 0.004) && !of("vertex.y", 0.0, 0.004));
+        assert!(of("rotation", 0.0, 0.3) && !of("rotation", 0.0, 0.4));
+        assert!(of("coefficient", 50.0, 10.0) && !of("coefficient", 50.0, 20.0));
+    }
 }

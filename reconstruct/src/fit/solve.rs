@@ -5,6 +5,7 @@ use super::curve::{Curve, Node};
 use super::finer::finer;
 use super::flatten::flattened;
 use super::grow::{Grown, grown};
+use super::needed::Posterior;
 use super::problem::{Explained, Fit, LOST, Model, Sources};
 use super::propose::{joined, sharpened};
 use super::simple::Best;
@@ -59,12 +60,16 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
 
     /// The better fit that more evaluations give, from the contour and the states of one that was found; perhaps with other errors.
     pub fn resumed(&mut self, best: &Solved, blocks: &'a Blocks) -> Option<Solved> {
-        let mut fit = Fit::new(self.rod, best.curve.clone(), blocks, self.sources);
-        (fit.states, fit.bend) = (best.states.clone(), best.bend);
-        fit.asked.clone_from(&best.asked);
+        self.continued(&best.curve, best, blocks).filter(|found| found.preferred(best).is_lt())
+    }
+
+    /// The fit from a contour near that of a fit which was found, whose states are taken over.
+    pub fn continued(&mut self, curve: &Curve, near: &Solved, blocks: &'a Blocks) -> Option<Solved> {
+        let mut fit = Fit::new(self.rod, curve.clone(), blocks, self.sources);
+        (fit.states, fit.bend) = (near.states.clone(), near.bend);
+        fit.asked.clone_from(&near.asked);
         let again = self.solved(&mut fit, self.errors, ROUGHLY)?;
-        let found = self.improved(&mut fit, again);
-        found.preferred(best).is_lt().then_some(found)
+        Some(self.improved(&mut fit, again))
     }
 
     /// The fit at contours that are changed as long as that makes it better.
@@ -235,6 +240,8 @@ pub(super) struct Solved {
     curve: Curve,
     pub cost: f64,
     covariance: DMatrix<f64>,
+    /// Standard deviations of the errors, in those of their budget.
+    spread: Vec<f64>,
     bend: f64,
     explained: Explained,
     states: Vec<Option<State>>,
@@ -270,9 +277,11 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     let farthest = fit.sources.free.iter().enumerate().map(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let goodness = Goodness::of(&explained, &fit.blocks.blocks, determined, farthest);
     fit.states.clone_from(&states);
+    let spread = covariance.diagonal().iter().skip(count).map(|variance| variance.max(0.0).sqrt()).collect();
     // of others nothing is known
     let cost = equations.cost + LOST * explained.others as f64;
-    Some(Solved { x, curve, asked: fit.asked.clone(), cost, covariance, bend: fit.bend, explained, states, goodness })
+    let (asked, bend) = (fit.asked.clone(), fit.bend);
+    Some(Solved { x, curve, asked, cost, covariance, spread, bend, explained, states, goodness })
 }
 
 impl Solved {
@@ -300,6 +309,27 @@ impl Solved {
     pub fn errors(&self) -> DVector<f64> {
         let count = self.curve.count();
         self.x.rows(count, self.x.len() - count).into_owned()
+    }
+
+    /// What is known of the errors.
+    pub fn posterior(&self) -> Posterior {
+        let (count, all) = (self.curve.count(), self.x.len() - self.curve.count());
+        Posterior { errors: self.errors(), covariance: self.covariance.view((count, count), (all, all)).into_owned() }
+    }
+
+    /// With other standard deviations of the errors, in those of their budget.
+    pub fn with_spread(self, spread: Vec<f64>) -> Self {
+        Self { spread, ..self }
+    }
+
+    /// The contour and the errors that are free, where those that are fixed are as they are known, to first order.
+    pub fn without(&self, fixed: &[usize], free: &[usize]) -> Option<(Curve, DVector<f64>)> {
+        let count = self.curve.count();
+        let fixed: Vec<usize> = fixed.iter().map(|i| count + i).collect();
+        let own = self.covariance.select_rows(&fixed).select_columns(&fixed).cholesky()?;
+        let moved = &self.x - self.covariance.select_columns(&fixed) * own.solve(&self.x.select_rows(&fixed));
+        let curve = self.curve.moved(moved.rows(0, count).into_owned())?;
+        Some((curve, DVector::from_iterator(free.len(), free.iter().map(|i| moved[count + i]))))
     }
 
     /// The states of the blocks with their residuals, and whether they are where the recording is explained worst.
@@ -342,7 +372,7 @@ impl Solved {
         sources: &Sources,
         given: &Rod,
     ) -> ContourFit {
-        let Self { x, curve, covariance, bend, explained, goodness, states, asked, .. } = self;
+        let Self { x, curve, covariance, spread, bend, explained, goodness, states, asked, .. } = self;
         let mut fit = Fit::new(rod, curve.clone(), blocks, sources);
         (fit.bend, fit.states, fit.asked) = (bend, states, asked);
         let model = fit.model_with(&x, curve.clone(), fit.states.clone());
@@ -355,10 +385,9 @@ impl Solved {
         let rates = model.as_ref().map(|model| fit.contact_rates(&x, model)).unwrap_or_default();
         let readings = explaining.and_then(|model| fit.answers(&x, model, &rates, &covariance, &labels, samples));
         let count = curve.count();
-        let sigma = |i: usize| covariance[(i, i)].max(0.0).sqrt();
         let of_source = |(i, k): (usize, &usize)| {
             let (source, unit, budget) = (Source::ALL[*k], Source::ALL[*k].unit(given), sources.sigmas[*k]);
-            (source, (sources.known[*k] + x[count + i] * budget) * unit, sigma(count + i) * budget * unit)
+            (source, (sources.known[*k] + x[count + i] * budget) * unit, spread[i] * budget * unit)
         };
         let errors: Vec<(Source, f64, f64)> = sources.free.iter().enumerate().map(of_source).collect();
         // the model has the length of the given rod; the true one may have another

@@ -11,7 +11,7 @@ use crate::kink::Kink;
 use crate::phase::{Evidence, Label};
 use crate::point::Touch;
 use crate::scan::noise_estimate::ChannelNoise;
-use crate::systematic::Calibration;
+use crate::systematic::{Calibration, Source};
 #[cfg(feature = "contact")]
 use nalgebra::Matrix2;
 use rod_core::{Rod, Sample};
@@ -130,8 +130,13 @@ impl Reconstruction {
         let sources =
             self.passes.iter_mut().filter_map(|pass| pass.calibration.as_mut()).flat_map(|one| &mut one.sources);
         for estimate in sources {
-            if let Some((_, value, sigma)) = fit.errors.iter().find(|error| error.0 == estimate.source) {
-                (estimate.value, estimate.taken, estimate.sigma) = (*value, *value, estimate.sigma.max(*sigma));
+            match fit.errors.iter().find(|error| error.0 == estimate.source) {
+                Some((_, value, sigma)) => {
+                    (estimate.value, estimate.taken, estimate.sigma) = (*value, *value, estimate.sigma.max(*sigma));
+                }
+                // the contour is that of the errors as they are known
+                None if estimate.source != Source::Friction => estimate.taken = estimate.known,
+                None => {}
             }
         }
     }

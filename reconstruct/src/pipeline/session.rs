@@ -156,4 +156,45 @@ mod tests {
         let turned = answers[800].1.unwrap().touch.unwrap_err().to_string();
         assert!(turned.contains("turns back"), "{turned}");
     }
+
+    /// Estimates that the scan does not need are not subtracted: they moved the points by some tenths of a millimetre.
+    #[cfg(feature = "contact")]
+    #[test]
+    fn points_of_a_sensor_without_errors_are_those_of_the_whole_scan() {
+        use crate::{NoiseModel, Settings, reconstruct};
+        use rod_contact::{ClampPath, Sweep};
+        use rod_contours::{Composite, Parabola};
+        let rod = Rod::from_diameter(0.1, 0.5e-3, 206e9).unwrap();
+        let object = Composite::single(Parabola::new([0.03, 0.0], 50.0).unwrap()).unwrap();
+        let pose = |x| Pose { x, y: -0.04, phi: std::f64::consts::FRAC_PI_2 };
+        // free, A, B
+        let path = ClampPath::new(pose(0.08), pose(0.01)).unwrap();
+        let states = Sweep::new(&rod, &object, path, 1e-5).unwrap().run().states;
+        let white = Reactions { f0x: 5e-4, f0y: 5e-4, m0z: 2e-5 };
+        let mut noise = NoiseModel { white, ..NoiseModel::default() }.generator(3).unwrap();
+        let sample = |state: &rod_contact::State| Sample::new(state.pose, noise.sample(state.reactions).unwrap());
+        let samples: Vec<Sample> = states.iter().map(sample).collect();
+        let settings = LiveSettings::of_free_rod(&rod, &samples[..500], Reactions::default()).unwrap();
+        let budget = Budget::laboratory(&rod);
+        let mut session = LiveSession::with_errors(&rod, &settings, &budget, &Known::NOTHING).unwrap();
+        let mut live = Vec::new();
+        for sample in &samples {
+            session.push((), Some(sample), |(), reading| live.extend(reading));
+        }
+        session.finish(|(), reading| live.extend(reading));
+        let whole = reconstruct(&rod, &samples, &Settings::default()).unwrap();
+        let off = |(live, whole): (&Reading, &Reading)| {
+            let (live, whole) = (live.touch.ok()?, whole.touch.ok()?);
+            let (sin, cos) = whole.alpha.sin_cos();
+            Some(((live.x - whole.x) * sin - (live.y - whole.y) * cos).abs())
+        };
+        let mut off: Vec<f64> = live.iter().zip(&whole.readings).filter_map(off).collect();
+        off.sort_by(f64::total_cmp);
+        assert!(
+            off.len() > 2000 && off[off.len() / 2] < 2e-5,
+            "{} points, off {:?} m",
+            off.len(),
+            off.get(off.len() / 2)
+        );
+    }
 }

@@ -161,9 +161,10 @@ pub(crate) fn calibrate_labelled(
     if raise(&mut prior, &found.errors, &mut raised) {
         found = estimate_errors(frame, &prior, &found.errors, &labelled, &alternation.least, STEPS);
     }
-    let calibration = calibration_report(rod, &prior, &raised, &found, &found.errors, Vec::new());
-    let shared = RemainingErrors { frame, factor: found.factor, scatter: found.scatter, rates: alternation.rates() };
-    Some((found.errors, shared, calibration))
+    let taken = sparsest_correction(frame, &prior, &found, &labelled, &alternation.least);
+    let calibration = calibration_report(rod, &prior, &raised, &found, &taken, Vec::new());
+    let (factor, rates) = (remaining_factor(&found, &taken), alternation.rates());
+    Some((taken, RemainingErrors { frame, factor, scatter: found.scatter, rates }, calibration))
 }
 
 /// The smallest residuals of each criterion to be expected, in standard deviations of the noise: those of the reactions and of their
