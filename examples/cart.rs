@@ -49,11 +49,11 @@ pub fn roll(rod: &Rod, post: &Composite, mut speed: f64) -> Result<Vec<Moment>, 
     Ok(moments)
 }
 
-/// Cart and whisker every 20 ms, as a picture.
+/// Cart and whisker every 20 ms, blue in contact, as a picture with a scale and the direction in which the cart starts.
 fn draw(rod: &Rod, moments: &[Moment]) -> Result<String, Box<dyn Error>> {
     let mut svg = String::from(
-        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='-110 -105 170 115' width='680' fill='none'\n\
-         stroke-width='0.4' style='background:white'>\n",
+        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='-110 -105 170 125' width='680' fill='none'\n\
+         stroke-width='0.4' font-family='sans-serif' font-size='5' style='background:white'>\n",
     );
     for moment in moments.iter().step_by(20) {
         let color = if moment.whisker.contacts.is_empty() { "#999" } else { "#0072b2" };
@@ -68,7 +68,12 @@ fn draw(rod: &Rod, moments: &[Moment]) -> Result<String, Box<dyn Error>> {
         )?;
     }
     let [x, y, radius] = [1e3 * CENTER[0], -1e3 * CENTER[1], 1e3 * RADIUS];
-    writeln!(svg, "<circle cx='{x}' cy='{y}' r='{radius}' fill='#ddd' stroke='black'/>\n</svg>")?;
+    writeln!(svg, "<circle cx='{x}' cy='{y}' r='{radius}' fill='#ddd' stroke='black'/>")?;
+    svg.push_str(
+        "<path d='M 30 12 H 50 M 30 11 V 13 M 50 11 V 13 M 10 12 H -20 M -17 10.5 L -20 12 L -17 13.5' stroke='black'/>\n\
+         <g fill='black' text-anchor='middle'><text x='40' y='18'>20 mm</text><text x='-5' y='18'>cart</text></g>\n\
+         </svg>\n",
+    );
     Ok(svg)
 }
 

@@ -26,4 +26,5 @@ mod regression;
 mod rods;
 mod size;
 mod symmetry;
+mod threads;
 mod transitions;

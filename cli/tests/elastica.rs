@@ -42,6 +42,20 @@ fn a_column_is_written_as_json_table_and_figure() {
 }
 
 #[test]
+fn a_clamped_tip_has_a_plate_as_the_clamp_has() {
+    // a plate and its five strokes
+    let lines = |text: &str| {
+        let (directory, output) = run(text);
+        assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+        let figure = fs::read_to_string(directory.path().join("out/column/elastica.svg")).unwrap();
+        figure.matches("stroke=\"#000000\" stroke-width=\"2\"").count()
+    };
+    assert_eq!(lines(COLUMN), 6);
+    assert_eq!(lines(&COLUMN.replace("force = [0.0, -0.1865]", "place = [0.03, 0.07]")), 6);
+    assert_eq!(lines(&COLUMN.replace("force = [0.0, -0.1865]", "place = [0.03, 0.07]\nangle = 90.0")), 12);
+}
+
+#[test]
 fn mistakes_name_their_place_and_write_nothing() {
     for (from, to, message) in [
         ("[0.0, -0.1865]", "[0.0, -999]", "column.toml:9:9: tip.force: the forces add up to 999.0 N, expected at most"),

@@ -335,7 +335,7 @@ fn what_cannot_be_listened_to() {
         "",
         &[],
         &on_scene("serial:/dev/null/x:gsv9"),
-        &["`gsv9` is no serial sensor that is known, expected one of: gsv8"],
+        &["`gsv9` is not a known serial sensor, expected one of: gsv8"],
     );
     refuses("", &[], &on_scene("serial:/dev/null/x:gsv8"), &["the units of its numbers are unknown", "--setup"]);
     refuses("", &[], &on_scene("serial:/dev/null/x:bota"), &["cannot open the serial port /dev/null/x at 460800 baud"]);

@@ -298,7 +298,7 @@ fn tables_that_are_ambiguous() {
     );
     refuses(
         "x0,y0,phi0f0x,f0y,m0z\n80,-0.04,1.5,0.1,-0.2,3e-3\n",
-        &["rec.csv:1: 5 names, but 6 cells in most rows", "a delimiter is missing in `phi0f0x`; mend line 1"],
+        &["rec.csv:1: 5 names, but 6 cells in most rows", "a delimiter is missing in `phi0f0x`; correct line 1"],
     );
     refuses(
         &written("x0 [mm],y0 [mm],phi0 [rad],f0x [N m],f0y [mN],m0z", ",", false, [1.0; 6]),

@@ -74,8 +74,7 @@ fn a_wrong_unit() {
     says(&edited("206e9", "\"206 mm\""), &["scene.toml:4:18: rod.youngs_modulus: ", expected]);
     let expected = "from is \"-4 kg\": `kg` is a unit of mass, expected one of length";
     says(&edited("[0.07, -0.04]", "[0.07, \"-4 kg\"]"), &["scene.toml:17:15: sweep.from[2]: ", expected]);
-    let expected =
-        "angle is \"90 furlongs\": `furlongs` is no unit that is known, expected one of angle: rad, mrad, deg";
+    let expected = "angle is \"90 furlongs\": `furlongs` is not a known unit, expected one of angle: rad, mrad, deg";
     says(&edited("90.0", "\"90 furlongs\""), &["scene.toml:19:9: sweep.angle: ", expected]);
     let expected = "coefficient is \"50 m\": `m` is a unit of length, expected one of curvature: 1/m, 1/mm, 1/cm";
     says(&edited("50.0", "\"50 m\""), &["contour.piece[1].coefficient: ", expected]);

@@ -187,7 +187,7 @@ fn mistakes_have_their_places() {
         ),
         (
             "[[parameter]]\nname = \"a\"\nvalues = []\nset = [{ field = \"rod.length\" }]",
-            "no values, expected one at least",
+            "no values, expected at least one",
         ),
         ("[[parameter]]\nname = \"a\"\nvalues = [1.0]\nset = []", "`set` is empty, expected a field"),
         (

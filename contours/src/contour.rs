@@ -11,7 +11,7 @@ use crate::{Bounds, Closest, Frame, FrameRate, Range};
 /// # For users
 ///
 /// Ask for [`closest`](Self::closest) (one point, everything about it) or [`gap`](Self::gap) (one number). A contour
-/// need not close: beyond an end of its range it says nothing, and `interior` tells that the end was nearest.
+/// need not be closed. It has no inside beyond its ends: `interior` is false if an end is the nearest point.
 ///
 /// # For shape authors
 ///
@@ -23,7 +23,7 @@ use crate::{Bounds, Closest, Frame, FrameRate, Range};
 ///
 /// 1. The frame is finite everywhere on the range.
 /// 2. `dr/dt = speed (cos alpha, sin alpha)`.
-/// 3. `d alpha/dt = turning`, and alpha is continuous: no jumps, by whole turns neither.
+/// 3. `d alpha/dt = turning`, and alpha is continuous: it has no jumps, not even by whole turns.
 /// 4. `speed >= 0` and `speed + |turning| > 0`.
 /// 5. The closest point's `t` lies in the range, its `frame` is `frame(t)`, and `|gap|` is the distance to it.
 /// 6. No point of the contour is nearer than the closest point.
@@ -107,15 +107,15 @@ pub trait Contour: Send + Sync + Debug {
     ///
     /// By default the sign of the turning at 97 samples shows the inflections, each refined by bisection; what turns by
     /// more between two of them is parted evenly by angle. Two inflections within one cell go unseen, and a range that
-    /// goes on for ever is not parted. A shape whose closest points are exact on any arc may return none.
+    /// is infinite is not parted. A shape whose closest points are exact on any arc may return none.
     fn cuts(&self, range: Range) -> Vec<f64> {
         cuts::from_samples(|t| self.frame(t), range)
     }
 
-    /// Whether the part in `range`, as a whole, lies on one side of each of its tangents: a point outside of it, as far as
-    /// the tangent at its closest point tells, is then outside of all of it.
+    /// Whether the whole part in `range` lies on one side of each of its tangents. A point on the outer side of the
+    /// tangent at its closest point is then outside of the whole part.
     ///
-    /// By default false: then the way the part bends is taken from samples, and gaps to it are not proven. Returning true
+    /// By default false: then the sense of bending is taken from samples, and gaps to the part are not proven. Returning true
     /// wrongly makes a sweep miss contacts.
     fn is_convex(&self, range: Range) -> bool {
         let _ = range;
@@ -126,8 +126,8 @@ pub trait Contour: Send + Sync + Debug {
     /// where the contour bends to the left, toward the solid. These are bounds: every value lies between them, and
     /// the shorter the range, the closer they are to the true least and largest value.
     ///
-    /// By default minus infinity and infinity, which says nothing. Bounds that are finite let a solver prove that a rod stays
-    /// outside; wrong ones let it "prove" what is false.
+    /// By default minus infinity and infinity, which is no bound. Finite bounds let a solver prove that a rod stays
+    /// outside; with wrong bounds its proofs are wrong.
     fn curvature_in(&self, range: Range) -> (f64, f64) {
         let _ = range;
         limits::ANY_CURVATURE
@@ -143,10 +143,10 @@ pub trait Contour: Send + Sync + Debug {
         false
     }
 
-    /// How the frame at `t` changes with a parameter of the shape, given by its name, at this fixed `t`; none where the shape has
+    /// How the frame at `t` changes with a parameter of the shape, given by its name, at this fixed `t`; `None` if the shape has
     /// no such parameter.
     ///
-    /// By default none. With it a solver knows the derivatives of its results by the parameter. The rate is exact, not a
+    /// By default `None`. With the rate a solver computes the derivatives of its results by the parameter. The rate is exact, not a
     /// difference. The names are the shape's own and belong to its documentation. Where the range depends on the parameter, a
     /// composite takes an inner end for the point where the two pieces, continued, cross.
     fn frame_rate(&self, t: f64, parameter: &str) -> Option<FrameRate> {
@@ -154,7 +154,7 @@ pub trait Contour: Send + Sync + Debug {
         None
     }
 
-    /// What of the contract need not be tested when the shape becomes a piece of a composite. For shapes of this crate alone:
+    /// The parts of the contract that need no test when the shape becomes a piece of a composite. For shapes of this crate alone:
     /// others cannot name the argument, and are tested.
     #[doc(hidden)]
     fn trust(&self, _: Seal) -> Trust {
@@ -162,7 +162,7 @@ pub trait Contour: Send + Sync + Debug {
     }
 }
 
-/// What is known of a shape by how it was made. [`Contour::trust`](crate::Contour::trust) gives it.
+/// Properties that a shape has by construction. [`Contour::trust`](crate::Contour::trust) returns them.
 #[derive(Clone, Copy, Debug)]
 pub struct Trust {
     /// Its methods keep the contract.
@@ -172,7 +172,7 @@ pub struct Trust {
 }
 
 impl Trust {
-    /// Nothing is known: a shape from outside this crate.
+    /// No property is known: a shape from outside this crate.
     pub(crate) const NONE: Self = Self { contract: false, simple: false };
     /// Its methods are tested here, its data may let it cross itself.
     pub(crate) const TESTED: Self = Self { contract: true, simple: false };

@@ -1,4 +1,4 @@
-//! What can be wrong with a contour.
+//! Errors of contours.
 
 use std::fmt;
 
@@ -8,11 +8,11 @@ use std::fmt;
 pub struct Broken {
     /// Number of the line.
     pub line: u8,
-    /// What the line says.
+    /// The text of the line.
     pub says: &'static str,
     /// Where, the shape's own parameter.
     pub t: f64,
-    /// What was found there.
+    /// The values found there.
     pub found: String,
 }
 
@@ -47,7 +47,7 @@ pub enum ContourError {
     #[error("a composite contour needs at least one piece, got none")]
     Empty,
 
-    /// A number that must be finite is not.
+    /// A number that is not finite.
     #[error("{what} is {value}, expected a finite number")]
     NotFinite {
         /// Which number.
@@ -67,7 +67,7 @@ pub enum ContourError {
         to: f64,
     },
 
-    /// A number that must be positive is not.
+    /// A number that is not positive.
     #[error("{what} is {value}, expected a positive number")]
     NotPositive {
         /// Which number.
@@ -76,7 +76,7 @@ pub enum ContourError {
         value: f64,
     },
 
-    /// A value of a curve that the limits its author gave leave out.
+    /// A value of a curve outside the limits that its author gave.
     #[error("{what} at t = {t} is {value}, but the limit of the part from {from} to {to} is {limit}; widen the limits")]
     BeyondLimit {
         /// Which value.
@@ -93,7 +93,7 @@ pub enum ContourError {
         to: f64,
     },
 
-    /// A line that goes nowhere.
+    /// A line between two equal points.
     #[error("from and to are the same point ({x}, {y}), expected two different points")]
     SamePoint {
         /// First coordinate of the point.
@@ -115,12 +115,12 @@ pub enum ContourError {
 
     /// A curve whose speed vanishes: it has no tangent there.
     #[error(
-        "{what} stands still at t = {t}, expected a speed that vanishes nowhere; cut it there, or move apart the points that coincide"
+        "{what} stands still at t = {t}, expected a positive speed everywhere; cut it there, or separate the points that coincide"
     )]
     Standstill {
         /// Which curve.
         what: &'static str,
-        /// Parameter at which it stands still.
+        /// Parameter at which its speed is 0.
         t: f64,
     },
 
@@ -135,7 +135,7 @@ pub enum ContourError {
 
     /// A function that is not finite somewhere on its range.
     #[error(
-        "{what} is {value} at t = {t}, expected finite numbers on the whole range (up to 1e4 along one that goes on for ever); trim the range"
+        "{what} is {value} at t = {t}, expected finite numbers on the whole range (up to 1e4 along an infinite one); trim the range"
     )]
     NotFiniteAt {
         /// Which number.
@@ -179,7 +179,7 @@ pub enum ContourError {
         broken: Broken,
     },
 
-    /// A piece goes on for ever, or to a point that is not finite, where it should meet its neighbour.
+    /// A piece is infinite, or ends in a point that is not finite, where it should meet its neighbour.
     #[error("piece {piece} has no finite end where it should meet piece {neighbour}; trim it, or use `joined`")]
     NoEnd {
         /// Number of the piece without an end, from 1.
@@ -200,19 +200,19 @@ pub enum ContourError {
     /// A contour that crosses itself, or touches itself at an angle.
     #[error("{what} {first} crosses {}, expected a contour that does not cross itself; {}", crossed(what, *first, *second, *x, *y), untangle(what))]
     Crosses {
-        /// What is counted: pieces or edges.
+        /// The kind of parts that are numbered: pieces or edges.
         what: &'static str,
         /// Number of the first of the two, from 1.
         first: usize,
         /// Number of the second, from 1; it may be the same one.
         second: usize,
-        /// Where they cross.
+        /// Coordinate of the crossing.
         x: f64,
-        /// Where they cross.
+        /// Coordinate of the crossing.
         y: f64,
     },
 
-    /// A polygon without area: a rod would pass through it unseen.
+    /// A polygon without area: the sweep would not see the rod pass through it.
     #[error("the points enclose an area of {area:e}, no more than rounding; expected a polygon with an inside")]
     NoArea {
         /// The area, lengths squared.
@@ -234,9 +234,9 @@ pub enum ContourError {
         piece: usize,
         /// Number of the second, from 1.
         next: usize,
-        /// Where the first one ends.
+        /// Coordinate of the end of the first one.
         x: f64,
-        /// Where the first one ends.
+        /// Coordinate of the end of the first one.
         y: f64,
         /// Distance from there to the start of the second one, a length.
         distance: f64,
@@ -274,7 +274,7 @@ pub enum ContourError {
         leaves: f64,
     },
 
-    /// A number that must not be negative is.
+    /// A negative number that must not be negative.
     #[error("{what} is {value}, expected a number not less than 0")]
     Negative {
         /// Which number.
@@ -355,13 +355,13 @@ pub enum ContourError {
     },
 }
 
-/// What is crossed, and where.
+/// The crossed part and the place, for a message.
 fn crossed(what: &str, first: usize, second: usize, x: f64, y: f64) -> String {
     let other = if first == second { "itself".to_owned() } else { format!("{what} {second}") };
     format!("{other} at ({x}, {y})")
 }
 
-/// What to do about it.
+/// The remedy, for a message.
 fn untangle(what: &str) -> &'static str {
     if what == "edge" {
         "put the points in the order in which they are passed"

@@ -8,7 +8,7 @@ pub type Point = [f64; 2];
 /// A displacement, a direction or a derivative of a place, `[x, y]`.
 pub type Vector = [f64; 2];
 
-/// Largest turn, rad, that is still a smooth joint: what a break computed in double precision leaves between tangents.
+/// Largest turn, rad, that is still a smooth joint: the rounding error between tangents that should be equal.
 pub(crate) const SMOOTH: f64 = 1e-9;
 
 /// Distance of the last from the first point, relative to the circumference, below which the last point repeats the first.

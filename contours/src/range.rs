@@ -1,4 +1,4 @@
-//! The stretch of the parameter on which a contour lives.
+//! The range of the parameter of a contour.
 
 /// Smallest distance from the finite end (or from 0) that the spread of an infinite range resolves, in units of the
 /// parameter: small against rods of micrometres given in metres.
@@ -56,7 +56,7 @@ impl Range {
         self.to - self.from
     }
 
-    /// What both ranges share; where they share nothing, an end of this range.
+    /// The intersection of both ranges. If it is empty: an end of this range.
     pub fn within(&self, other: Self) -> Self {
         let from = self.clamp(other.from);
         Self { from, to: self.clamp(other.to).max(from) }

@@ -25,6 +25,7 @@ pub struct PyElastica {
     rod: PyRod,
     branch: usize,
     points: usize,
+    tip_held: (bool, bool, bool),
 }
 
 impl PyElastica {
@@ -83,6 +84,12 @@ impl PyElastica {
     fn tip(&self) -> (f64, f64, f64) {
         let Section { x, y, phi, .. } = self.tip_section();
         (x, y, phi)
+    }
+
+    /// Whether x, y and phi of the tip are held.
+    #[getter]
+    fn tip_held(&self) -> (bool, bool, bool) {
+        self.tip_held
     }
 
     /// Force and moment on the tip: fx, fy (N), moment (N m), those given or those of the support where the tip is held.
@@ -230,7 +237,9 @@ pub fn elastica(
     let found = running::run(py, || elastica_equilibria(&rod.rod, pose.0, &loads, &tip))?;
     let mut found = found.map_err(|error| errors::value(named(&error)))?;
     found.truncate(branches.0.unwrap_or(found.len()));
-    let one = |(branch, one)| PyElastica { one, pose: pose.0, rod: rod.clone(), branch, points };
+    let is_held = |end| matches!(end, TipEnd::Held(_));
+    let tip_held = (is_held(tip.x), is_held(tip.y), is_held(tip.phi));
+    let one = |(branch, one)| PyElastica { one, pose: pose.0, rod: rod.clone(), branch, points, tip_held };
     Ok(found.into_iter().enumerate().map(one).collect())
 }
 

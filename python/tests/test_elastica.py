@@ -136,6 +136,7 @@ def test_what_an_equilibrium_has(wire: vibrissa.Rod) -> None:
     one = found[0]
     assert one.points.shape == (11, 6) and one.rod == wire and one.pose == (0.0, 0.0, 0.0)
     assert one.points[-1, 1:4] == pytest.approx(one.tip, abs=1e-15)
+    assert one.tip_held == (True, True, False)
     assert np.array(one.reactions[:2]) + one.tip_load[:2] == pytest.approx([-0.1, 0.2], abs=1e-15)
     assert one.potential_energy <= found[1].potential_energy and one.energy > 0.0 and one.residual < 1e-12
     assert repr(one).startswith("<vibrissa.Elastica 0: stable, tip at (80.000, 10.000) mm, ")

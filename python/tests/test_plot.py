@@ -295,6 +295,30 @@ def test_axes_of_ones_own_have_the_style() -> None:
     assert ax.xaxis.label.get_fontsize() == 8.0 and not ax.spines["top"].get_visible()
 
 
+@pytest.mark.parametrize("tip", [(0.07, 0.0, 0.0), (0.07, 0.04, 0.0), (0.05, 0.02, 1.0)])
+def test_the_numbers_of_equilibria_are_beside_their_own_shapes(tip: tuple[float, float, float]) -> None:
+    found = vibrissa.elastica(vibrissa.Rod(0.1, 6e-4), (0.0, 0.0, 0.0), tip={"pose": tip}, branches="all")
+    assert len(found) > 3
+    ax = vibrissa.plot.elastica(found)
+    assert_legible(ax)
+    to_pixels = ax.transData.transform
+    numbers = [text for text in ax.texts if text.get_text().isdigit()]
+    assert [text.get_text() for text in numbers] == [str(one.branch) for one in found]
+    for text in numbers:
+        box = text.get_window_extent()
+        middle = np.array([0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1)])
+        away = [np.hypot(*(to_pixels(one.points[:, 1:3]) - middle).T).min() for one in found]
+        assert int(np.argmin(away)) == int(text.get_text())
+    # a plate at the clamp and one at the tip
+    plates = [line for line in ax.lines if isinstance(line.get_marker(), tuple)]
+    places = {tuple(np.round(np.asarray(line.get_xydata(), dtype=float)[0], 9).tolist()) for line in plates}
+    assert places == {(0.0, 0.0), tip[:2]}
+
+
+def test_helpers_are_not_public() -> None:
+    assert not {"annotations", "optional"} & {*dir(vibrissa), *dir(vibrissa.plot)}
+
+
 def test_the_contour_has_a_band_of_two_deviations(scan: vibrissa.Scan, found: vibrissa.Reconstruction) -> None:
     ax = vibrissa.plot.contour(found, objects=scan.objects)
     rows = found.contour

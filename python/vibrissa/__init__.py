@@ -27,8 +27,6 @@ Forces from shapes
 ``UNITS`` has the units of the fields of all arrays.
 """
 
-from __future__ import annotations
-
 from ._core import (
     UNITS,
     Bezier,

@@ -4,15 +4,50 @@ use super::canvas::FigureError;
 use super::chart::Chart;
 use super::element::Element;
 use super::line::thin_line;
-use super::palette::{INK, MUTED};
+use super::outline;
+use super::palette::{INK, MUTED, SOLID};
 use super::plane::PlaneWindow;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
+use vibrissa::Composite;
+use vibrissa::contour::{Bounds, Frame};
 
 /// Width of the line, pixels.
 pub(super) const WIDTH: u32 = 5;
 /// Distance of the strokes into the solid, and their length, pixels.
 const APART: f64 = 22.0;
 const STROKE: f64 = 20.0;
+
+/// Fills a closed object that the window (m) shows as a whole: strokes in a small one would cross each other.
+pub(super) fn fill(chart: &Chart<'_>, object: &Composite, bounds: Bounds) -> Result<(), FigureError> {
+    let Some(frames) = seen_whole(object, bounds) else { return Ok(()) };
+    chart.draw_series([Element::polygon(frames.iter().map(millimetres), SOLID.filled())])
+}
+
+/// Draws the contour of an object in the window (m), with strokes into the solid where [`fill`] does not fill it.
+pub(super) fn draw_object(
+    chart: &Chart<'_>,
+    window: &PlaneWindow,
+    object: &Composite,
+    bounds: Bounds,
+) -> Result<(), FigureError> {
+    if let Some(frames) = seen_whole(object, bounds) {
+        let line = thin_line(frames.iter().map(millimetres), (window.scale, window.scale));
+        return chart.draw_series([Element::line(line, INK.stroke_width(WIDTH))]);
+    }
+    for part in outline::visible(object, bounds) {
+        draw(chart, window, part.iter().map(millimetres))?;
+    }
+    Ok(())
+}
+
+/// A closed object that the window (m) shows as a whole. A cavity is none: its solid lies outside of it.
+fn seen_whole(object: &Composite, bounds: Bounds) -> Option<Vec<Frame>> {
+    (!object.is_cavity()).then(|| outline::seen_whole(object, bounds)).flatten()
+}
+
+fn millimetres(frame: &Frame) -> (f64, f64) {
+    (1e3 * frame.x, 1e3 * frame.y)
+}
 
 /// Draws a part of a contour (mm), and those strokes into the solid that end in the window.
 pub(super) fn draw(

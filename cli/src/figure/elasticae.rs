@@ -67,16 +67,19 @@ pub(super) fn draw(root: &Area<'_>, area: &Area<'_>, scan: &Scan) -> Result<(), 
     let seen = with_closed_objects(scan, seen);
     let window = window(area, &seen);
     let chart = window.chart(area, (12, 12))?;
+    let PlaneWindow { x, y, .. } = &window;
+    let bounds = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
+    for object in &scan.scene.objects {
+        contour::fill(&chart, object, bounds)?;
+    }
     let line = |curve: Curve| thin_line(curve, (window.scale, window.scale));
     chart.draw_series(shapes.into_iter().map(|(curve, style)| Element::line(line(curve), style)))?;
     chart.draw_series(transitions.into_iter().map(|curve| Element::line(line(curve), TRANSITION.stroke_width(3))))?;
     for curve in landings {
         chart.draw_series([Element::dashed(line(curve), (14, 10), TRANSITION.stroke_width(3))])?;
     }
-    let PlaneWindow { x, y, .. } = &window;
-    let bounds = Bounds { min: [1e-3 * x.start, 1e-3 * y.start], max: [1e-3 * x.end, 1e-3 * y.end] };
-    for part in scan.scene.objects.iter().flat_map(|object| outline::visible(object, bounds)) {
-        contour::draw(&chart, &window, part.iter().map(|frame| (1e3 * frame.x, 1e3 * frame.y)))?;
+    for object in &scan.scene.objects {
+        contour::draw_object(&chart, &window, object, bounds)?;
     }
     let mut drawn = scan.outcome.states.iter().step_by(every);
     for state in drawn.next().into_iter().chain(drawn.next_back()) {
@@ -93,15 +96,8 @@ fn with_closed_objects(scan: &Scan, mut seen: Curve) -> Curve {
     let ((left, right), (bottom, top)) = (around(&x), around(&y));
     let window = Bounds { min: [left, bottom], max: [right, top] };
     for object in scan.scene.objects.iter().filter(|object| object.is_closed()) {
-        let parts = outline::visible(object, window);
-        let frames = parts.iter().flatten();
-        let near = 1e-5 * more;
-        // a part that leaves the window is seen in pieces
-        if parts.len() == 1
-            && parts[0].first().zip(parts[0].last()).is_some_and(|(a, b)| (a.x - b.x).hypot(a.y - b.y) < near)
-        {
-            seen.extend(frames.map(|frame| (1e3 * frame.x, 1e3 * frame.y)));
-        }
+        let frames = outline::seen_whole(object, window).into_iter().flatten();
+        seen.extend(frames.map(|frame| (1e3 * frame.x, 1e3 * frame.y)));
     }
     seen
 }

@@ -3,13 +3,13 @@
 use super::canvas::{BODY, FigureError, HPos, PAGE, TITLE, span, svg, write};
 use super::element::Element;
 use super::film::arrow;
-use super::labels::Labels;
 use super::line::thin_line;
 use super::palette::{FIRST, INK, MUTED, OTHERS};
 use super::plane::PlaneWindow;
 use super::support;
 use rod_files::ElasticaRun;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
+use vibrissa::Pose;
 use vibrissa::rod::{AnyRod, ElasticaEquilibrium, TipEnd};
 
 /// Points on a shape, at least.
@@ -23,8 +23,10 @@ const UNSTABLE: u32 = 3;
 const DASH: (i32, i32) = (14, 10);
 /// Length of the largest force that is drawn, pixels.
 const ARROW: f64 = 110.0;
-/// Distance of a number from the tip, pixels.
+/// Distance of a number from its shape, pixels.
 const BESIDE: f64 = 24.0;
+/// Places on a shape beside which its number may stand.
+const PLACES: usize = 25;
 
 /// Draws the shapes: stable ones as lines, unstable ones dashed, and the forces that are given.
 pub(crate) fn equilibria(run: &ElasticaRun) -> Result<String, FigureError> {
@@ -61,39 +63,67 @@ pub(crate) fn equilibria(run: &ElasticaRun) -> Result<String, FigureError> {
             }])?;
         }
         support::draw_rigid(&chart, &window, run.scene.clamp)?;
+        if let Some(pose) = tip_clamp(run) {
+            support::draw_rigid(&chart, &window, pose)?;
+        }
         for (to, force) in &forces {
             let length = window.scale * ARROW / largest;
             for line in arrow(*to, *force, length, window.scale) {
                 chart.draw_series([Element::line(line, FIRST.stroke_width(2))])?;
             }
         }
-        let mut labels = Labels::default();
-        for (branch, one) in run.equilibria.iter().enumerate() {
-            let places = places(run, one).into_iter().map(|(at, direction)| {
-                let ((x, y), (sin, cos)) = (chart.backend_coord(&at), direction.sin_cos());
-                (x + (BESIDE * cos).round() as i32, y - (BESIDE * sin).round() as i32)
-            });
-            if let Some(place) = labels.place(places, (BODY as i32, BODY as i32)) {
-                write(root, &branch.to_string(), place, HPos::Center, BODY, OTHERS[branch % OTHERS.len()])?;
-            }
+        let numbers = number_places(run, &curves, BESIDE * window.scale);
+        for (branch, place) in numbers.into_iter().enumerate() {
+            let place = chart.backend_coord(&place);
+            write(root, &branch.to_string(), place, HPos::Center, BODY, OTHERS[branch % OTHERS.len()])?;
         }
         Ok(())
     })
 }
 
-/// Where the number of an equilibrium may stand: places on the rod (mm), and directions from there. All tips that are held are at one place, and
-/// shapes like an S cross in the middle.
-fn places(run: &ElasticaRun, one: &ElasticaEquilibrium<AnyRod>) -> Vec<((f64, f64), f64)> {
-    let is_held = [run.scene.tip.x, run.scene.tip.y].iter().all(|end| matches!(end, TipEnd::Held(_)));
-    let (parts, turns) = match is_held {
-        true => ([0.3, 0.7, 0.4, 0.6, 0.2], [FRAC_PI_2, -FRAC_PI_2]),
-        false => ([1.0; 5], [0.9, -0.9]),
-    };
-    let at = |part: f64| {
-        let at = one.shape.at(part * one.shape.length());
-        turns.map(|turn| ((1e3 * at.x, 1e3 * at.y), at.phi + turn))
-    };
-    parts.into_iter().flat_map(at).collect()
+/// The pose of a tip that is held in place and in angle, turned by pi: that of a clamp there.
+fn tip_clamp(run: &ElasticaRun) -> Option<Pose> {
+    let tip = run.scene.tip;
+    match (tip.x, tip.y, tip.phi) {
+        (TipEnd::Held(x), TipEnd::Held(y), TipEnd::Held(phi)) => Some(Pose { x, y, phi: phi + PI }),
+        _ => None,
+    }
+}
+
+/// Where the number of each equilibrium stands (mm): `beside` (mm) from its shape, where it is farthest from the other shapes, the clamps and the
+/// numbers before it.
+fn number_places(run: &ElasticaRun, curves: &[Vec<(f64, f64)>], beside: f64) -> Vec<(f64, f64)> {
+    let mut taken: Vec<(f64, f64)> = vec![(1e3 * run.scene.clamp.x, 1e3 * run.scene.clamp.y)];
+    taken.extend(tip_clamp(run).map(|pose| (1e3 * pose.x, 1e3 * pose.y)));
+    for (branch, one) in run.equilibria.iter().enumerate() {
+        let others = || {
+            let others = curves.iter().enumerate().filter(|(other, _)| *other != branch);
+            others.flat_map(|(_, curve)| curve).chain(&taken).copied()
+        };
+        // from the tip on, which is the first of places that are as good
+        let places = (0..PLACES).rev().flat_map(|k| {
+            let at = one.shape.at(one.shape.length() * k as f64 / (PLACES - 1) as f64);
+            let ((x, y), directions) = ((1e3 * at.x, 1e3 * at.y), [at.phi + FRAC_PI_2, at.phi - FRAC_PI_2]);
+            directions.map(|direction| ((x, y), (x + beside * direction.cos(), y + beside * direction.sin())))
+        });
+        let (mut best, mut farthest) = (None, f64::NEG_INFINITY);
+        for (on_shape, number) in places {
+            let free = nearest(on_shape, others()).min(nearest(number, others()));
+            // it keeps off its own shape, too, which may come back
+            let is_clear = nearest(number, curves[branch].iter().copied()) > 0.9 * beside;
+            let free = if is_clear { free } else { 0.5 * free };
+            if best.is_none() || free > farthest + 1e-6 * beside {
+                (best, farthest) = (Some(number), free);
+            }
+        }
+        taken.extend(best);
+    }
+    taken
+}
+
+/// The distance of a place from the nearest of some points; infinite without points.
+fn nearest(place: (f64, f64), points: impl Iterator<Item = (f64, f64)>) -> f64 {
+    points.map(|(x, y)| (x - place.0).hypot(y - place.1)).fold(f64::INFINITY, f64::min)
 }
 
 /// A number with four digits.

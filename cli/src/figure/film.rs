@@ -55,7 +55,8 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
         let arrows = if judged().all(|judged| judged.contacts.is_empty()) {
             "no force is found".to_owned()
         } else {
-            format!("arrows: forces on the rod, the longest {:.2} {name}", largest / unit)
+            let from = if extent.is_empty() { "arrows" } else { "arrows from the contacts" };
+            format!("{from}: forces on the rod, the longest {:.2} {name}", largest / unit)
         };
         let pole = if extent.is_empty() { "" } else { "; black: the pole" };
         let notes = [format!("dots: points; lines: the rod; {arrows}{pole}"), format!("{WITHOUT}{shown}")];
@@ -70,7 +71,10 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
         }
         let length = window.scale * ARROW / largest;
         for contact in judged().flat_map(|judged| &judged.contacts) {
-            for line in arrow((1e3 * contact.x, 1e3 * contact.y), [contact.fx, contact.fy], length, window.scale) {
+            let at = (1e3 * contact.x, 1e3 * contact.y);
+            // an arrow that ends at the contact would lie in the pole
+            let end = if extent.is_empty() { at } else { (at.0 + length * contact.fx, at.1 + length * contact.fy) };
+            for line in arrow(end, [contact.fx, contact.fy], length, window.scale) {
                 chart.draw_series([Element::line(line, FIRST.stroke_width(LINE / 2))])?;
             }
         }
@@ -119,7 +123,7 @@ fn rim(pole: &FilmPole, size: f64) -> Vec<Curve> {
     cross.into_iter().chain(rim).collect()
 }
 
-/// The lines of the arrow of a force that ends where it acts; `length` (mm) is that of the unit of force, `pixel` (mm) the size of a pixel.
+/// The lines of the arrow of a force that ends at `to`; `length` (mm) is that of the unit of force, `pixel` (mm) the size of a pixel.
 pub(super) fn arrow(to: (f64, f64), [fx, fy]: [f64; 2], length: f64, pixel: f64) -> [Curve; 2] {
     let force = fx.hypot(fy);
     let back = |along: f64, across: f64| {

@@ -27,6 +27,20 @@ pub(super) fn visible(contour: &Composite, window: Bounds) -> Vec<Vec<Frame>> {
     parts
 }
 
+/// The frames of a closed contour that lies in `window` (m) as a whole; the last one is at the place of the first.
+pub(super) fn seen_whole(contour: &Composite, window: Bounds) -> Option<Vec<Frame>> {
+    if !contour.is_closed() {
+        return None;
+    }
+    let mut parts = visible(contour, window);
+    let diagonal = (window.max[0] - window.min[0]).hypot(window.max[1] - window.min[1]);
+    // a contour that leaves the window is seen in parts, or from one border to another
+    let is_whole = |part: &Vec<Frame>| {
+        part.first().zip(part.last()).is_some_and(|(a, b)| (a.x - b.x).hypot(a.y - b.y) < 1e-5 * diagonal)
+    };
+    if parts.len() == 1 { parts.pop().filter(is_whole) } else { None }
+}
+
 /// The part of a stretch's range that can be seen: all of it, or, where it goes on for ever, as far as it takes to
 /// leave the window for good.
 fn reachable(contour: &Composite, index: usize, window: Bounds, diagonal: f64) -> Range {
@@ -57,7 +71,7 @@ fn reachable(contour: &Composite, index: usize, window: Bounds, diagonal: f64) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibrissa::{Contour, Parabola};
+    use vibrissa::{CircularArc, Contour, Parabola};
 
     #[test]
     fn two_parabolas_are_seen_in_one_piece_up_to_the_window() {
@@ -69,6 +83,14 @@ mod tests {
         let (first, last) = (parts[0].first().unwrap(), parts[0].last().unwrap());
         assert!((first.y - 0.05).abs() < 1e-3 && (last.y - 0.05).abs() < 1e-3, "{first:?} {last:?}");
         assert!(first.x < -0.03 && last.x > 0.06);
+    }
+
+    #[test]
+    fn a_circle_is_seen_whole_if_no_part_of_it_is_outside_of_the_window() {
+        let circle = Composite::single(CircularArc::circle([0.0, 0.0], 0.01).unwrap()).unwrap();
+        let window = |right: f64| Bounds { min: [-0.02, -0.02], max: [right, 0.02] };
+        assert!(seen_whole(&circle, window(0.02)).is_some());
+        assert!(seen_whole(&circle, window(0.005)).is_none());
     }
 
     #[test]

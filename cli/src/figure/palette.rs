@@ -10,6 +10,7 @@ pub(crate) struct RGBColor(pub u8, pub u8, pub u8);
 pub(crate) const WHITE: RGBColor = RGBColor(255, 255, 255);
 pub(crate) const INK: RGBColor = RGBColor(0, 0, 0);
 pub(crate) const MUTED: RGBColor = RGBColor(90, 90, 90);
+pub(crate) const SOLID: RGBColor = RGBColor(230, 230, 230);
 pub(crate) const FAINT: RGBColor = RGBColor(205, 205, 205);
 
 /// Shapes and poses at a transition: not the black of the contour.

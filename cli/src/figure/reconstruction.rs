@@ -10,10 +10,11 @@ use vibrissa::Label;
 use vibrissa::reconstruct::Touch;
 use vibrissa::reconstruct::score::Deviation;
 
-/// Width; least and largest height of the plot; height of the title and the key, pixels.
+/// Width; least and largest height of the plot; height of the title and the key, and of a line on errors between them, pixels.
 const WIDTH: u32 = PAGE;
 const HEIGHT: (f64, f64) = (300.0, 1200.0);
-const HEAD: u32 = 184;
+const HEAD: u32 = 116;
+const ERROR_LINE: u32 = 34;
 /// Height of the line that says what is drawn of a fit, pixels.
 const NOTE: u32 = 36;
 
@@ -40,16 +41,18 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
     let (window, height) = PlaneWindow::as_wide_as(WIDTH, &x, &y, HEIGHT);
     let in_view = |point: &(f64, f64)| window.x.contains(&point.0) && window.y.contains(&point.1);
     let seen: Vec<(f64, f64)> = naive.into_iter().filter(in_view).collect();
-    let room = HEAD + found.fitted().map_or(0, |_| NOTE);
+    let errors = match &found.comparison {
+        _ if all().next().is_none() => "no sample has a contact point, so there is no contour".to_owned(),
+        Some(comparison) => errors(comparison),
+        None => String::new(),
+    };
+    let errors_height = ERROR_LINE * errors.lines().count() as u32;
+    let head_height = HEAD + errors_height;
+    let room = head_height + found.fitted().map_or(0, |_| NOTE);
     svg((WIDTH, room + height), |root| {
         let (head, area) = root.split_vertically(room);
         write(&head, &format!("{}: contact points from the reactions", found.name), (24, 36), HPos::Left, TITLE, INK)?;
-        let errors = match &found.comparison {
-            _ if all().next().is_none() => "no sample has a contact point, so there is no contour".to_owned(),
-            Some(comparison) => errors(comparison),
-            None => String::new(),
-        };
-        for (line, y) in errors.lines().zip([76, 110]) {
+        for (line, y) in errors.lines().zip((76..).step_by(ERROR_LINE as usize)) {
             write(&head, line, (24, y), HPos::Left, BODY, MUTED)?;
         }
         let tip = Dot { colour: label_colour(Label::A), filled: true };
@@ -63,10 +66,15 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
         ];
         let drawn = entries.into_iter().filter(|(_, _, point)| point.is_some());
         let entries: Vec<(Dot, &str)> = drawn.map(|(dot, name, _)| (dot, name)).collect();
-        cloud::key(&head, (24, 154), &entries, found.comparison.as_ref().map(|_| "true contour"))?;
+        cloud::key(
+            &head,
+            (24, 86 + errors_height as i32),
+            &entries,
+            found.comparison.as_ref().map(|_| "true contour"),
+        )?;
         let chart = window.chart(&area, (12, 8))?;
         if let Some(fit) = found.fitted() {
-            write(&head, &fitted::note(fit), (24, HEAD as i32 + 6), HPos::Left, BODY, MUTED)?;
+            write(&head, &fitted::note(fit), (24, head_height as i32 + 6), HPos::Left, BODY, MUTED)?;
             fitted::draw(&chart, fit)?;
         }
         cloud::dots(&chart, &window, seen, NAIVE)?;

@@ -1,4 +1,4 @@
-//! Where a contour enters the solid of the next one.
+//! Search for the place where a contour enters the solid of the next one.
 
 use crate::point::cross;
 use crate::{Contour, Frame, Range};
@@ -96,7 +96,7 @@ impl Walk<'_> {
         self.entry(left, middle, halvings - 1, wanted).or_else(|| self.entry(middle, right, halvings - 1, wanted))
     }
 
-    /// The crossing between a stop outside and a stop inside; none where the sign changes without the gap vanishing.
+    /// The crossing between a stop outside and a stop inside; `None` if the sign changes without the gap vanishing.
     fn refine(&self, outside: Stop, inside: Stop) -> Option<Crossing> {
         let (mut low, mut high) = (outside, inside);
         for _ in 0..BISECTIONS {

@@ -74,11 +74,11 @@ impl Joint {
 
 /// The change of a vertex, the point where the two pieces, continued, cross, per unit of a parameter.
 pub(crate) struct VertexRate {
-    /// Of the point.
+    /// Rate of the point.
     pub point: Vector,
-    /// Of the parameters of the two pieces where they end there.
+    /// Rates of the parameters at which the two pieces end there.
     pub ends: [f64; 2],
-    /// Of the tangent angles of the two pieces there, rad.
+    /// Rates of the tangent angles of the two pieces there, rad.
     pub alphas: [f64; 2],
 }
 

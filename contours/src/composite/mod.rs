@@ -55,7 +55,7 @@ pub struct Composite {
     turns: i32,
     /// The pieces cut into simple arcs, in order; empty where no piece is cut.
     cells: Vec<Cell>,
-    /// Of the cells (of the pieces, where none is cut), each with the joint after it.
+    /// Index of the cells (of the pieces if none is cut), each with the joint after it.
     index: Index,
     /// Neighbouring cells that bend one way, in order, and their boxes.
     runs: Vec<StoredRun>,
@@ -90,10 +90,10 @@ impl Composite {
     }
 
     /// Pieces that meet or cross: each is left at its end, where the next one starts there, and else at the first point
-    /// where it enters the solid of the next, so that the solid is the union. Pieces may go on for ever.
+    /// where it enters the solid of the next, so that the solid is the union. Pieces may be infinite.
     ///
     /// The crossing is exact to rounding. Unseen are crossings closer together than 1/16 of a cell, of which there are
-    /// 256 spread over the piece by [`Range::at`], and crossings more than 1e4 along a piece that goes on for ever.
+    /// 256 spread over the piece by [`Range::at`], and crossings more than 1e4 along a piece that is infinite.
     ///
     /// # Errors
     ///
@@ -117,12 +117,12 @@ impl Composite {
         self.pieces.len()
     }
 
-    /// Whether the end meets the start, so that the contour goes round.
+    /// Whether the contour is closed: its end meets its start.
     pub fn is_closed(&self) -> bool {
         self.turns != 0
     }
 
-    /// Whether it goes round clockwise: the border of a cavity, with the solid outside.
+    /// Whether it is closed and runs clockwise: the border of a cavity, with the solid outside.
     pub fn is_cavity(&self) -> bool {
         self.turns < 0
     }
@@ -146,7 +146,7 @@ impl Composite {
         Stretch { kind: self.kind(index), range }
     }
 
-    /// What one of the [`stretches`](Self::stretches) is; too large an index means the last.
+    /// The kind of one of the [`stretches`](Self::stretches); too large an index means the last.
     pub fn kind(&self, stretch: usize) -> StretchKind {
         let (piece, joint) = self.piece_of(self.clamp_stretch(stretch));
         match self.pieces[piece].turn() {
@@ -210,7 +210,7 @@ impl Composite {
     }
 
     /// The change of [`own_frame`](Self::own_frame) with a [parameter](Contour::frame_rate) of the shape of `piece`, all other
-    /// pieces staying as they are; none where there is no such piece, or its shape has no such parameter.
+    /// pieces staying as they are; `None` if there is no such piece, or its shape has no such parameter.
     ///
     /// A vertex is the point where the two pieces, continued, cross. At a vertex the frame turns by nothing: its own parameter
     /// is the angle.
@@ -258,7 +258,7 @@ impl Composite {
         piece.checked_sub(1).or_else(|| self.is_closed().then(|| self.pieces.len() - 1))
     }
 
-    /// Index of the stretch of this kind; none where there is no such piece, or no such joint after it.
+    /// Index of the stretch of this kind; `None` if there is no such piece, or no such joint after it.
     pub fn find(&self, kind: StretchKind) -> Option<usize> {
         let (StretchKind::Piece(index) | StretchKind::Corner { before: index } | StretchKind::Notch { before: index }) =
             kind;
@@ -573,7 +573,7 @@ impl Composite {
         Some(closest)
     }
 
-    /// Whether the contour within `range` goes on smoothly beyond the end `t` of a part; none where a joint goes on.
+    /// Whether the contour within `range` goes on smoothly beyond the end `t` of a part; `None` if a joint goes on.
     fn continues_smoothly(&self, stretch: usize, part: Range, own: Range, range: Range, t: f64) -> Option<bool> {
         let (common, all) = (self.stretch(stretch).range, self.own_range(stretch));
         let at_start = t - self.common_parameter(stretch, part.from) < self.common_parameter(stretch, part.to) - t;

@@ -111,7 +111,7 @@ impl Piece {
     }
 
     /// Largest coordinate at the ends and in the middle of the piece (one unit of the parameter away from a single end,
-    /// or from 0, where it goes on for ever): the length against which rounding is judged.
+    /// or from 0, where it is infinite): the length against which rounding is judged.
     pub fn scale(&self) -> f64 {
         let part = self.range.window(1.0);
         // Both ends alone would not do for a circle from the origin to the origin.

@@ -1,4 +1,4 @@
-//! Runs: neighbouring arcs of a contour that bend one way, so that one straight line can tell what is clear of all of them.
+//! Runs: neighbouring arcs of a contour that bend one way, so that one straight line can separate a rod from all of them.
 
 use std::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use crate::{Bounds, Contour, Frame, Range, Vector};
 /// support the run by this angle times the run's length.
 const STRAIGHT: f64 = 1e-13;
 
-/// A parameter at which the tangent angle is that at infinity: its square is still a number.
+/// A parameter at which the tangent angle equals that at infinity. Its square is still finite.
 const AT_INFINITY: f64 = 1e150;
 
 /// How the arcs of a [`Run`] bend.

@@ -1,4 +1,4 @@
-//! Where a contour crosses itself.
+//! Search for places where a contour crosses itself.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -47,7 +47,7 @@ impl From<SelfCrossing> for ContourError {
 }
 
 impl Composite {
-    /// The first place where the contour crosses itself, or touches itself at an angle; none if it does not.
+    /// The first place where the contour crosses itself, or touches itself at an angle; `None` if it does not.
     ///
     /// Arcs are followed by chords, 8 to a right angle, and a crossing of two chords is one if the arcs cross there: exact
     /// for lines, while arcs that cross twice within 1/200 of their radius can go unseen. What runs back along itself,
@@ -171,7 +171,7 @@ impl Chord {
         self.refine(other, [at(self, shares[0]), at(other, shares[1])], contour)
     }
 
-    /// The crossing near these places; none where Newton's iteration does not lead to one.
+    /// The crossing near these places; `None` if Newton's iteration does not lead to one.
     fn refine(&self, other: &Self, places: [f64; 2], contour: &Composite) -> Option<SelfCrossing> {
         let chords = [self, other];
         let frames = |places: [f64; 2]| [0, 1].map(|side| contour.own_frame(chords[side].stretch, places[side]));

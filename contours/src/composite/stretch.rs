@@ -2,7 +2,7 @@
 
 use crate::Range;
 
-/// What a stretch of a composite is. Pieces are counted from 0.
+/// The kind of a stretch of a composite. Pieces are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StretchKind {
     /// The piece with this index.

@@ -86,7 +86,7 @@ pub fn c3_turning(shape: &dyn Contour, t: f64) -> Result<(), String> {
 pub fn c4_moving(shape: &dyn Contour, t: f64) -> Result<(), String> {
     let Frame { speed, turning, .. } = shape.frame(t);
     holds(speed >= 0.0 && speed + turning.abs() > 0.0, || {
-        format!("4: speed {speed} and turning {turning} at t = {t}, expected a speed not negative, and not both 0")
+        format!("4: speed {speed} and turning {turning} at t = {t}, expected speed >= 0 and speed + |turning| > 0")
     })
 }
 
@@ -197,7 +197,7 @@ pub fn c10_convex(shape: &dyn Contour, t: f64) -> Result<(), String> {
     };
     for range in [whole, part] {
         holds(!shape.is_convex(range) || is_on_one_side(shape, range, t), || {
-            format!("10: it says that it is convex in {range:?}, but it lies on both sides of its tangent at t = {t}")
+            format!("10: `is_convex` is true in {range:?}, but the shape lies on both sides of its tangent at t = {t}")
         })?;
     }
     Ok(())
@@ -255,11 +255,11 @@ pub fn c12_exact(shape: &dyn Contour, range: Range, point: Point) -> Result<(), 
 }
 
 /// The whole contract at parameters and points spread over the range (over 10 units of the parameter from its finite end,
-/// or either way from 0, where it goes on for ever) by `samples`, numbers from 0 to 1.
+/// or either way from 0, where it is infinite) by `samples`, numbers from 0 to 1.
 ///
 /// # Errors
 ///
-/// What is wrong in words, beginning with the number of the contract's line.
+/// The fault in words, after the number of the contract's line.
 pub fn check(shape: &dyn Contour, samples: &[f64]) -> Result<(), String> {
     let window = shape.range().window(WINDOW);
     let extent = (0..=32)
@@ -346,7 +346,7 @@ fn velocity(frame: Frame) -> Vector {
     [frame.speed * cos, frame.speed * sin]
 }
 
-/// The largest coordinate of the point and of the contour (where it goes on for ever, of one unit of its parameter): the
+/// The largest coordinate of the point and of the contour (where it is infinite, of one unit of its parameter): the
 /// length against which rounding is judged. The point alone will not do, it may be the origin.
 fn scale(shape: &dyn Contour, point: Point) -> f64 {
     let near = shape.range().window(1.0);

@@ -1,6 +1,6 @@
-//! A cheap look at a shape from outside, before it becomes a piece: what `contract::check` finds at few places.
+//! A cheap test of a shape from another crate before it becomes a piece: `contract::check` at few places.
 //!
-//! A wrong shape gives wrong contacts without a word, so the plain mistakes are refused. Tolerances are wide: a shape that is right
+//! A wrong shape gives wrong contacts without an error, so plain mistakes are refused. Tolerances are wide: a shape that is right
 //! to four digits passes.
 
 use crate::error::Broken;
@@ -18,7 +18,7 @@ const STEPS: [f64; 2] = [1e-6, 1e-3];
 /// Accepted error of a rate, relative.
 const RATE: f64 = 1e-3;
 
-/// How often what a rate departs from an even variation within a difference is added to that; a third is the error where its
+/// Factor of the allowance for a rate that varies unevenly within a difference; the error is a third of this where its
 /// second derivative is constant.
 const VARIES: f64 = 8.0;
 
@@ -40,7 +40,7 @@ const HALVINGS: usize = 48;
 /// Half the part around a place of which the closest point is asked, relative to the range.
 const PART: f64 = 0.02;
 
-/// A line of the contract that the shape breaks; none if it seems right.
+/// A line of the contract that the shape breaks; `None` if it seems right.
 pub(crate) fn broken_line(shape: &dyn Contour) -> Option<Broken> {
     let range = shape.range();
     let window = range.window(WINDOW);
@@ -126,7 +126,7 @@ impl Probe<'_> {
             let (x, y) = (frame.x - outwards * step * nx, frame.y - outwards * step * ny);
             let closest = self.shape.closest_in(range, x, y);
             if !range.contains(closest.t) {
-                let found = format!("the closest point in {range:?} is said to be at t = {}", closest.t);
+                let found = format!("the closest point in {range:?} is reported at t = {}", closest.t);
                 return Some(Broken::new(5, t, found));
             }
             // Nearer to another place it may be on either side of that.

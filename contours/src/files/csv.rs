@@ -18,7 +18,7 @@ use crate::Point;
 ///
 /// # Errors
 ///
-/// [`FileError`] names the line, the column and the text of a cell that is no finite number.
+/// [`FileError`] names the line, the column and the text of a cell that is not a finite number.
 pub fn points(file: &Path) -> Result<Vec<Point>, FileError> {
     points_with_lines(file).map(|points| points.into_iter().map(|(point, _)| point).collect())
 }

@@ -1,4 +1,4 @@
-//! What can be wrong with a file, and with the fields of a shape.
+//! Errors of files and of the fields of a shape.
 
 use std::path::PathBuf;
 
@@ -11,9 +11,9 @@ pub enum FileError {
     /// The file cannot be read as text.
     #[error("cannot read {}: {source}", file.display())]
     Unreadable {
-        /// Which file.
+        /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         source: std::io::Error,
     },
     /// A table without a column of this name.
@@ -22,51 +22,51 @@ pub enum FileError {
         file.display()
     )]
     Column {
-        /// Which file.
+        /// The file.
         file: PathBuf,
         /// The column that is missing.
         column: &'static str,
         /// The first line of the file.
         header: String,
     },
-    /// A cell of a table that is no coordinate.
+    /// A cell of a table that is not a coordinate.
     #[error("{}:{line}: column {column} is \"{text}\", expected a finite number", file.display())]
     Cell {
-        /// Which file.
+        /// The file.
         file: PathBuf,
         /// Line, from 1.
         line: u64,
         /// Name of the column.
         column: &'static str,
-        /// What stands there.
+        /// The text found there.
         text: String,
     },
     /// A text that is not in the format it should be in.
     #[error("{}:{line}: {message}", file.display())]
     Malformed {
-        /// Which file.
+        /// The file.
         file: PathBuf,
         /// Line, from 1.
         line: u64,
-        /// What is wrong there.
+        /// The fault there.
         message: String,
     },
     /// Points that make no contour.
     #[error("{}{}: {source}", file.display(), line.map(|line| format!(":{line}")).unwrap_or_default())]
     Points {
-        /// Which file.
+        /// The file.
         file: PathBuf,
-        /// Line of the point that is to blame, from 1, if it is one.
+        /// Line of the faulty point, from 1, if a single point is at fault.
         line: Option<u64>,
-        /// What is wrong.
+        /// The fault.
         source: ContourError,
     },
-    /// A drawing without the path that is asked for.
+    /// A drawing without the requested path.
     #[error("{}: {source}", file.display())]
     Svg {
-        /// Which file.
+        /// The file.
         file: PathBuf,
-        /// What is wrong.
+        /// The fault.
         source: SvgError,
     },
     /// A shape of a list.
@@ -76,19 +76,19 @@ pub enum FileError {
         source.field.map(|field| format!(", {field}")).unwrap_or_default()
     )]
     Shape {
-        /// Which file.
+        /// The file.
         file: PathBuf,
         /// Number of the shape, from 1.
         shape: usize,
-        /// What is wrong.
+        /// The fault.
         source: Box<ShapeError>,
     },
     /// Shapes that do not make one contour.
     #[error("{}: {source}", file.display())]
     Contour {
-        /// Which file.
+        /// The file.
         file: PathBuf,
-        /// What is wrong.
+        /// The fault.
         source: ContourError,
     },
 }
@@ -129,10 +129,10 @@ pub enum SvgError {
         /// The transform.
         transform: String,
     },
-    /// Data that are no path.
+    /// Data that are not a path.
     #[error("the data of the path cannot be read: {message}; expected SVG path data like \"M 0 0 L 1 0\"")]
     Data {
-        /// What is wrong.
+        /// The fault.
         message: String,
     },
     /// A path without a segment of some length.
@@ -149,25 +149,25 @@ pub enum SvgError {
     Segment {
         /// Number of the segment, from 1.
         segment: usize,
-        /// What is wrong.
+        /// The fault.
         source: ContourError,
     },
 }
 
-/// Why a shape's fields make no contour, and which of them is to blame.
+/// Why the fields of a shape make no contour, and which of them is at fault.
 #[derive(Debug, thiserror::Error)]
 #[error("{fault}")]
 pub struct ShapeError {
-    /// The field whose value is wrong; none where several do not go together, or one is missing.
+    /// The field whose value is wrong; `None` if several do not go together, or one is missing.
     pub field: Option<&'static str>,
     /// Which of the field's points, from 1, where it is one of them.
     pub point: Option<usize>,
-    /// What is wrong.
+    /// The fault.
     #[source]
     pub fault: Box<ShapeFault>,
 }
 
-/// What is wrong with the fields of a shape.
+/// A fault of the fields of a shape.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ShapeFault {

@@ -72,7 +72,7 @@ fn is_closed(part: &BezPath, tiny: f64) -> bool {
         || matches!(ends, [Some(first), Some(last)] if elements.len() > 1 && first.distance(last) <= tiny)
 }
 
-/// A segment as a piece; none where it has no length.
+/// A segment as a piece; `None` if it has no length.
 fn piece_of(segment: PathSeg, tiny: f64) -> Result<Option<Box<dyn Contour>>, ContourError> {
     let xy = |point: Point| [point.x, point.y];
     let here = |one: Point, other: Point| one.distance(other) <= tiny;

@@ -31,14 +31,14 @@ pub struct Index {
     count: usize,
     /// The boxes of the items, then those of each further level; nothing where there are few.
     boxes: Vec<Bounds>,
-    /// Where each level starts in `boxes`.
+    /// Start of each level in `boxes`.
     levels: Vec<usize>,
     /// Items without finite boxes, in order; they are near everything, and stay out of the boxes around others. A contour
     /// has two at most.
     unbounded: Vec<usize>,
 }
 
-/// What [`Index::nearest`] looks for.
+/// The query of [`Index::nearest`].
 struct Nearest<'a, F> {
     x: f64,
     y: f64,
@@ -96,7 +96,7 @@ impl Index {
         self.levels.is_empty()
     }
 
-    /// The box of an item; none where there are few items, or where it has no finite one.
+    /// The box of an item; `None` if there are few items, or where it has no finite one.
     pub fn bounds(&self, item: usize) -> Option<Bounds> {
         (!self.is_small() && item < self.count && !self.unbounded.contains(&item)).then(|| self.boxes[item])
     }

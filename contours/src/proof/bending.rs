@@ -22,7 +22,7 @@ struct Bend {
     sense: f64,
 }
 
-/// The parts of the range in order, as large as the limits tell the way they bend; none where that takes too many.
+/// The largest parts of the range, in order, for which the limits determine the sense of bending; `None` if there are too many.
 fn bends(limits: &LimitsOf, range: Range) -> Option<Vec<Bend>> {
     let mut found = Vec::new();
     let mut open = vec![(range, HALVINGS)];
@@ -53,7 +53,7 @@ fn bends(limits: &LimitsOf, range: Range) -> Option<Vec<Bend>> {
     Some(found)
 }
 
-/// The inflections, and between them as many cuts as it takes at equal angles; none where the limits do not show the inflections.
+/// The inflections, and between them cuts at equal angles; `None` if the limits do not determine the inflections.
 pub(crate) fn cuts(frame: impl Fn(f64) -> Frame, limits: &LimitsOf, range: Range) -> Option<Vec<f64>> {
     let bends = bends(limits, range)?;
     let mut inflections = Vec::new();

@@ -25,7 +25,7 @@ const CERTAIN: f64 = 1e-9;
 /// Rounds in which the bounds of `phi` and `h` tighten each other.
 const ROUNDS: usize = 3;
 
-/// What is known at one parameter.
+/// The values at one parameter.
 #[derive(Clone, Copy)]
 struct Place {
     t: f64,
@@ -97,11 +97,11 @@ pub(crate) fn closest_parameter(
     best.t
 }
 
-/// What the limits say of a part between two places.
+/// Bounds on a part between two places.
 struct PartBounds {
-    /// The least that the distance can be.
+    /// Lower bound of the distance.
     least: f64,
-    /// The least that `1 + kappa h` can be.
+    /// Lower bound of `1 + kappa h`.
     turns: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What the author of a function knows about it over a whole part of its range, so that searches can be proven.
+//! Bounds that the author of a function states for a part of its range, so that searches can be proven.
 
 use std::sync::Arc;
 

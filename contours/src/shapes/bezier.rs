@@ -176,7 +176,7 @@ impl Contour for Bezier {
         cuts::at_equal_turns(|t| self.frame(t), range, &bends)
     }
 
-    /// What bends one way only and turns by at most a half turn, in which case it lies on one side of each tangent.
+    /// Whether the part bends one way only and turns by at most a half turn: then it lies on one side of each of its tangents.
     fn is_convex(&self, range: Range) -> bool {
         let Range { from, to } = Range::UNIT.within(range);
         let cubic = self.cubic();
@@ -309,7 +309,7 @@ mod tests {
         let message = |control| Bezier::new(control).unwrap_err().to_string();
         assert_eq!(
             message([[0.0, 0.0], [0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]),
-            "the Bezier curve stands still at t = 0, expected a speed that vanishes nowhere; cut it there, or move apart the points that coincide"
+            "the Bezier curve stands still at t = 0, expected a positive speed everywhere; cut it there, or separate the points that coincide"
         );
         assert!(message([[0.0, 0.0], [1.0, 1.0], [0.0, 1.0], [1.0, 0.0]]).contains("stands still at t = 0.5"));
         assert!(message([[1.0, 0.0]; 4]).contains("stands still"));

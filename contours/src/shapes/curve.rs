@@ -51,7 +51,7 @@ impl Curve {
     /// # Errors
     ///
     /// [`ContourError::EmptyRange`] unless the range's start is less than its end (NaN included),
-    /// [`ContourError::NotFinite`] for a range that goes on for ever. At the samples described above:
+    /// [`ContourError::NotFinite`] for a range that is infinite. At the samples described above:
     /// [`ContourError::NotFiniteAt`] for a coordinate or a derivative that is not finite, [`ContourError::Standstill`]
     /// for a speed that is 0 or less than 1e-9 of the largest, [`ContourError::Jump`] for a direction that jumps.
     pub fn new(range: Range, r: impl Fn(Jet) -> [Jet; 2] + Send + Sync + 'static) -> Result<Self, ContourError> {
@@ -104,8 +104,8 @@ impl Curve {
     ///
     /// # Errors
     ///
-    /// [`ContourError::NotFinite`] for a range that goes on for ever; [`ContourError::BeyondLimit`] where one of 768 samples lies
-    /// outside the limits of a part around it. What lies outside between the samples goes unseen.
+    /// [`ContourError::NotFinite`] for a range that is infinite; [`ContourError::BeyondLimit`] where one of 768 samples lies
+    /// outside the limits of a part around it. Values between the samples are not tested.
     pub fn with_limits(self, limits: impl Fn(Range) -> Limits + Send + Sync + 'static) -> Result<Self, ContourError> {
         let known = function::check_limits(&self, limits)?;
         Ok(Self { limits: Some(known), ..self })

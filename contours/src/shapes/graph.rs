@@ -93,8 +93,8 @@ impl Graph {
     ///
     /// # Errors
     ///
-    /// [`ContourError::NotFinite`] for a range that goes on for ever; [`ContourError::BeyondLimit`] where one of 768 samples lies
-    /// outside the limits of a part around it. What lies outside between the samples goes unseen.
+    /// [`ContourError::NotFinite`] for a range that is infinite; [`ContourError::BeyondLimit`] where one of 768 samples lies
+    /// outside the limits of a part around it. Values between the samples are not tested.
     pub fn with_limits(self, limits: impl Fn(Range) -> Limits + Send + Sync + 'static) -> Result<Self, ContourError> {
         let known = function::check_limits(&self, limits)?;
         Ok(Self { limits: Some(known), ..self })
@@ -162,7 +162,7 @@ mod tests {
         let log = Graph::new(Range { from: 0.0, to: 1.0 }, |x| x.ln()).unwrap_err();
         assert_eq!(
             log.to_string(),
-            "g is -inf at t = 0, expected finite numbers on the whole range (up to 1e4 along one that goes on for ever); trim the range"
+            "g is -inf at t = 0, expected finite numbers on the whole range (up to 1e4 along an infinite one); trim the range"
         );
         assert!(Graph::new(Range::ALL, |x| x.cosh()).unwrap_err().to_string().starts_with("g is inf at t = -"));
         let empty = Graph::new(Range { from: 1.0, to: f64::NAN }, |x| x).unwrap_err();

@@ -107,7 +107,7 @@ impl Contour for Line {
         Vec::new()
     }
 
-    /// It is its own tangent.
+    /// A line is its own tangent.
     fn is_convex(&self, _: Range) -> bool {
         true
     }

@@ -23,7 +23,7 @@ use crate::{ContourError, Point, Vector, check};
 pub struct Motion {
     /// Angle of the rotation, rad, counterclockwise.
     pub rotation: f64,
-    /// What is added at the end, lengths.
+    /// Translation, which is added last, lengths.
     pub translation: Vector,
     /// Factor of all lengths, positive.
     pub scale: f64,

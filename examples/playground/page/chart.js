@@ -1,7 +1,10 @@
-// The reactions of the last seconds: a lane each, with a scale of its own.
+// The reactions over the last seconds of motion: a lane each, with a scale of its own.
 (() => {
     const SECONDS = 8;
     const LANES = [['f0x', 'mN', 1e3, []], ['f0y', 'mN', 1e3, [7, 4]], ['m0z', 'N mm', 1e3, [2, 4]]];
+
+    /// With about two digits.
+    const short = value => value === 0 ? '0' : String(Number(value.toPrecision(2)));
 
     (globalThis.playground ??= {}).Chart = class Chart {
         #canvas;
@@ -37,9 +40,9 @@
             LANES.forEach(([name, unit, factor, dash], lane) => {
                 const head = lane * tall + 12, top = head + 5, bottom = (lane + 1) * tall - 4;
                 const values = this.#rows.map(row => row[lane + 1] * factor);
-                const most = Math.max(1e-3, ...values, 0), least = Math.min(0, ...values);
-                const [high, low] = [most, least === 0 && most === 1e-3 ? 0 : least];
-                const y = value => bottom - (value - low) / (high - low) * (bottom - top);
+                const [low, high] = [Math.min(0, ...values), Math.max(0, ...values)];
+                // a rod that was free all the time has a line at zero
+                const y = value => bottom - (value - low) / (high - low || 1) * (bottom - top);
                 pen.setLineDash([]);
                 pen.lineWidth = 1;
                 pen.strokeStyle = this.#colour('line');
@@ -59,7 +62,7 @@
                 pen.fillStyle = this.#colour('text');
                 pen.fillText(`${name}, ${unit}`, 2, head);
                 pen.fillStyle = this.#colour('faint');
-                const range = `${low.toFixed(Math.abs(low) < 10 ? 1 : 0)} to ${high.toFixed(high < 10 ? 1 : 0)}`;
+                const range = `${short(low)} to ${short(high)}`;
                 pen.fillText(range, this.#width - pen.measureText(range).width - 2, head);
             });
             pen.setLineDash([]);

@@ -7,9 +7,6 @@
 
     const CONTACTS = { tangent: '● side (B)', tip: '▲ tip (A)', corner: '◆ corner', notch: '■ notch' };
     const MODES = { 'slip+': ', slips', 'slip-': ', slips', stick: ', sticks' };
-    const EVENTS = { 'first-contact': 'first contact', touch: 'touches again', release: 'one lets go', piece: 'next piece',
-        'tip-to-tangent': 'tip lies down', 'tangent-to-tip': 'contact at tip', 'slip-over': 'slips over corner',
-        stick: 'sticks', slip: 'slips', snap: 'snaps', 'snap-off': 'snaps off' };
 
     /// Sliders: a step of what they show in SI units, and the label of a value that they show.
     const SLIDERS = {
@@ -74,7 +71,7 @@
 
         events(events) {
             id('events').replaceChildren(...events.map(({ kind, from, to, pose }) =>
-                item(`${EVENTS[kind] ?? kind}: ${from} → ${to} `, `x ${(pose[0] * 1e3).toFixed(1)} mm`)));
+                item(`${kind}: ${from} → ${to} `, `x ${(pose[0] * 1e3).toFixed(1)} mm`)));
         }
 
         recording(rows, isRecording) {

@@ -27,6 +27,8 @@
     let rod = new Rod(module), spare = new Rod(module);
     let scene, state, outlines, wish, last;
     let trail = [], events = [], recording, isRecording = false, scanning = false;
+    // the chart's time, s: it stands still with the clamp, so that a scan stays in the chart
+    let motion = 0, charted;
     let refused, respite = 0, isDirty = true, movedAt = 0, nextEdit;
 
     async function compiled(base64) {
@@ -196,10 +198,13 @@
             edit(edited);
         }
         move(now);
-        chart.add(now / 1e3, state.reactions);
+        if (state !== charted) {
+            motion += seconds;
+            chart.add(motion, state.reactions);
+            charted = state;
+        }
         if (isDirty || now - movedAt < 1000) draw(now);
-        // the chart stands still once it shows a constant
-        if (now - movedAt < 9000 || isDirty) chart.draw(now / 1e3);
+        if (isDirty) chart.draw(motion);
         isDirty = false;
         if (hashDue && now > hashDue) writeHash();
         requestAnimationFrame(frame);

@@ -46,7 +46,7 @@ fn values(table: &Spanned<ParameterTable>) -> Result<Vec<f64>, Fault> {
     match (values, from, to, count) {
         (Some(values), None, None, None) => {
             if values.get_ref().is_empty() {
-                return Err(Fault::new(values.span(), "no values, expected one at least".to_owned()));
+                return Err(Fault::new(values.span(), "no values, expected at least one".to_owned()));
             }
             match values.get_ref().iter().find(|value| !value.is_finite()) {
                 Some(value) => Err(Fault::new(values.span(), format!("a value is {value}, expected finite numbers"))),

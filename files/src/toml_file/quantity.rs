@@ -146,7 +146,7 @@ mod tests {
             message("40 mN"),
             "length is \"40 mN\": `mN` is a unit of force, expected one of length: m, mm, um, cm, in, ft"
         );
-        let unknown = "length is \"40 furlongs\": `furlongs` is no unit that is known, expected one of length: m, mm";
+        let unknown = "length is \"40 furlongs\": `furlongs` is not a known unit, expected one of length: m, mm";
         assert!(message("40 furlongs").starts_with(unknown));
         let mass = "length is \"40 kg\": `kg` is a unit of mass, expected one of length: m, mm, um, cm, in, ft";
         assert_eq!(message("40 kg"), mass);
@@ -155,7 +155,10 @@ mod tests {
             force.contains("`kg` is a unit of mass, expected one of force: N, mN") && force.ends_with("1 kgf"),
             "{force}"
         );
-        assert!(message("100 mm^1").contains("`mm^1` is no unit") && message("100 m m").contains("`m m` is no unit"));
+        assert!(
+            message("100 mm^1").contains("`mm^1` is not a known unit")
+                && message("100 m m").contains("`m m` is not a known unit")
+        );
         assert_eq!(message("0,5 mm"), "length is \"0,5 mm\", expected a decimal point: \"0.5 mm\"");
     }
 }

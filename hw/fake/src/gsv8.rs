@@ -58,7 +58,7 @@ impl FakeGsv8 {
         Self { rate, sending: false, single: false, scanner: Scanner::default(), last, zero }
     }
 
-    /// What it does, and what it answers, if anything.
+    /// Executes a request and returns the answer, if there is one.
     fn obey(&mut self, command: u8, payload: &[u8]) -> Option<(u8, Vec<u8>)> {
         let code = match (command, payload) {
             (command::START, []) => {
@@ -156,7 +156,7 @@ impl FakeDevice for FakeGsv8 {
     }
 }
 
-/// What the host sends.
+/// The requests of the host.
 struct Requests;
 
 impl Framing for Requests {

@@ -81,7 +81,7 @@ impl FakeDevice for FakeOptoForce {
     }
 }
 
-/// What the host sends.
+/// The requests of the host.
 struct Requests;
 
 impl Framing for Requests {

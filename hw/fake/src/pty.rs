@@ -33,7 +33,7 @@ pub struct Pty {
 /// ```
 ///
 /// # Errors
-/// Where the system has none left.
+/// If the system has none left.
 pub fn open_pty() -> io::Result<Pty> {
     let (mut near, far) = TTYPort::pair()?;
     near.set_timeout(Duration::from_millis(1))?;
@@ -42,7 +42,7 @@ pub fn open_pty() -> io::Result<Pty> {
 }
 
 impl Pty {
-    /// What to open as a serial port.
+    /// The path to open as a serial port.
     pub fn path(&self) -> &str {
         &self.path
     }
@@ -59,7 +59,7 @@ impl Write for Pty {
         self.near.write(bytes)
     }
 
-    /// Nothing is held back here; waiting until all is read would be for ever where nobody reads.
+    /// Nothing is buffered here. Waiting until all is read would block if nobody reads.
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }

@@ -76,7 +76,7 @@ impl FakeDevice for FakeRobotiq {
     }
 }
 
-/// What the host sends.
+/// The requests of the host.
 struct Requests;
 
 impl Framing for Requests {

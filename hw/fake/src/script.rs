@@ -1,8 +1,8 @@
-//! What goes wrong, and when.
+//! A script of faults.
 
 use rod_hw::Quality;
 
-/// What goes wrong with a frame.
+/// A fault of a frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fault {
@@ -12,12 +12,12 @@ pub enum Fault {
     Within {
         /// From 0.
         at: usize,
-        /// What comes there.
+        /// The bytes sent in its place.
         bytes: Vec<u8>,
     },
     /// This bit is flipped: bit 0 is the lowest of byte 0.
     Flip(usize),
-    /// Only so many of its bytes come.
+    /// Only this number of its bytes is sent.
     Cut(usize),
     /// It is measured and counted, but not sent.
     Lost,
@@ -27,7 +27,7 @@ pub enum Fault {
     Disconnect,
 }
 
-/// What goes wrong with which frame, counted from 0.
+/// The faults by number of the frame, from 0.
 ///
 /// ```
 /// use rod_fake_sensor::{Fault, Script};
@@ -67,7 +67,7 @@ impl Script {
         self
     }
 
-    /// What goes wrong with a frame.
+    /// A fault of a frame.
     pub fn faults(&self, frame: u64) -> impl Iterator<Item = &Fault> {
         let applies = move |rule: &Rule| match *rule {
             Rule::At(at) => at == frame,
@@ -76,7 +76,7 @@ impl Script {
         self.rules.iter().filter(move |(rule, _)| applies(rule)).map(|(_, fault)| fault)
     }
 
-    /// What the device says of a frame.
+    /// The status of a frame.
     pub(super) fn quality(&self, frame: u64) -> Quality {
         self.faults(frame).fold(Quality::empty(), |quality, fault| match fault {
             Fault::Report(more) => quality | *more,
@@ -84,7 +84,7 @@ impl Script {
         })
     }
 
-    /// What comes in place of the bytes of a frame; none where it is not sent.
+    /// The bytes sent in place of a frame; `None` if it is not sent.
     pub(super) fn damaged(&self, frame: u64, mut bytes: Vec<u8>) -> Option<Vec<u8>> {
         let mut before = Vec::new();
         for fault in self.faults(frame) {

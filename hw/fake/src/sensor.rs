@@ -64,27 +64,27 @@ pub enum Pace {
     Unpaced,
 }
 
-/// What a fake device did so far.
+/// The account of a fake device so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Served {
     /// Samples measured.
     pub frames: u64,
-    /// Of these, not sent because the script says so.
+    /// Frames not sent because of the script.
     pub lost: u64,
-    /// Of these, not sent because the host does not read.
+    /// Frames not sent because the host does not read.
     pub overrun: u64,
 }
 
 /// Why a fake device stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// The source has no more values.
+    /// The source has ended.
     Source,
     /// The script unplugs it: drop the stream, and serve another one.
     Unplugged,
     /// The host closed the connection.
     Closed,
-    /// It was told to.
+    /// On request.
     Told,
 }
 
@@ -117,7 +117,7 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
         self
     }
 
-    /// What it did so far.
+    /// The account so far.
     pub fn served(&self) -> Served {
         self.served
     }
@@ -235,7 +235,7 @@ impl<D: FakeDevice, S: Iterator<Item: AsRef<[f64]>>> FakeSensor<D, S> {
     }
 }
 
-/// Whether the host is gone, which is no error.
+/// Whether the host has closed the connection, which is no error.
 fn closed(error: io::Error) -> io::Result<End> {
     match error.kind() {
         ErrorKind::BrokenPipe | ErrorKind::ConnectionReset | ErrorKind::ConnectionAborted => Ok(End::Closed),

@@ -3,7 +3,7 @@
 use super::{CalibrationDataError, RatedLoad};
 use crate::sample::{Component, Number, Wrench, WrenchSample};
 
-/// What is known of the errors of a sensor: the standard deviation of the random one, and bounds of the systematic one,
+/// Errors of a sensor: the standard deviation of the random error, and bounds of the systematic error,
 /// which averaging does not make smaller.
 ///
 /// ```

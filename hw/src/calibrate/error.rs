@@ -11,7 +11,7 @@ pub enum CalibrationDataError {
     Unit {
         /// Which unit.
         field: &'static str,
-        /// What is wrong with it.
+        /// The fault.
         error: UnitError,
     },
     /// A number is out of its range.
@@ -21,7 +21,7 @@ pub enum CalibrationDataError {
         field: &'static str,
         /// Its value.
         value: f64,
-        /// What it should be.
+        /// The expected value.
         expected: &'static str,
     },
     /// A number of one component is out of its range.
@@ -29,11 +29,11 @@ pub enum CalibrationDataError {
     OfComponent {
         /// Which number.
         field: &'static str,
-        /// Of which component.
+        /// The component.
         component: Component,
         /// Its value.
         value: f64,
-        /// What it should be.
+        /// The expected value.
         expected: &'static str,
     },
     /// There is no scale.
@@ -63,21 +63,21 @@ pub enum CalibrationDataError {
         /// Which row.
         component: Component,
     },
-    /// A row is a combination of the others.
+    /// A row is a linear combination of the others.
     #[error(
-        "the row of {component} is a combination of the other rows: only {independent:.1e} of it is not, expected at least \
+        "the row of {component} is a combination of the other rows: only a part of {independent:.1e} is independent, expected at least \
          {limit:.0e}; is a row repeated, or rounded too far? Leave out the components that the sensor cannot tell apart"
     )]
     Dependent {
         /// Which row.
         component: Component,
-        /// What part of it the other rows do not give.
+        /// The part of it that is linearly independent of the other rows.
         independent: f64,
         /// The smallest part that is accepted.
         limit: f64,
     },
     /// Fewer gauges than components.
-    #[error("{gauges} gauges for {components} components, expected as many at least")]
+    #[error("{gauges} gauges for {components} components, expected at least as many gauges as components")]
     Gauges {
         /// How many gauges there are.
         gauges: usize,
@@ -85,13 +85,13 @@ pub enum CalibrationDataError {
         components: usize,
     },
     /// A component is there twice.
-    #[error("{component} is given twice, expected once at most")]
+    #[error("{component} is given twice, expected at most once")]
     Twice {
         /// Which one.
         component: Component,
     },
     /// Nothing is measured.
-    #[error("no component is given, expected one at least")]
+    #[error("no component is given, expected at least one")]
     Nothing,
     /// More channels than a sample can have.
     #[error("{count} channels, expected at most {most}", most = crate::sample::Channels::MOST)]
@@ -110,6 +110,8 @@ pub enum CalibrationDataError {
         high: f64,
     },
     /// A calibration that compensates for temperature has a bias of no known temperature.
-    #[error("the bias is of no known temperature, which this calibration compensates for; give it with the bias")]
+    #[error(
+        "this calibration compensates for temperature, but the temperature of the bias is unknown; give it with the bias"
+    )]
     BiasTemperature,
 }

@@ -31,7 +31,7 @@ const INDEPENDENT: f64 = 1e-4;
 pub struct GaugeMatrix<const N: usize, T = f64> {
     /// N and N m per raw unit.
     rows: [[T; N]; 6],
-    /// What the gauges read without load.
+    /// The reading of the gauges without load.
     bias: [f64; N],
     compensation: Option<Compensation<N>>,
 }
@@ -148,7 +148,7 @@ impl<const N: usize> Compensation<N> {
         Ok(Self { bias_slopes, gain_slopes, reference })
     }
 
-    /// What the gauges would read at the reference temperature, in their unit.
+    /// The reading of the gauges at the reference temperature, in their unit.
     ///
     /// # Errors
     /// [`CalibrationError::Temperature`] where the gain is not positive: the temperature is off, or the slopes are.

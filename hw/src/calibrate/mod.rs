@@ -82,7 +82,7 @@ pub enum CalibrationError {
         divisor: f64,
     },
     /// The raw values are numbers, but no wrench.
-    #[error("{component} comes out as {value} {}, expected a finite number; check the factors of the calibration", .component.si())]
+    #[error("{component} is {value} {} after calibration, expected a finite number; check the factors of the calibration", .component.si())]
     Overflow {
         /// Which component.
         component: Component,

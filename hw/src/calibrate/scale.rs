@@ -22,7 +22,7 @@ use core::array::from_fn;
 pub struct Scale<T = f64> {
     /// SI per raw unit.
     factors: [T; 6],
-    /// Where the components are in a sample.
+    /// The channel of each component in a sample.
     channels: [Option<usize>; 6],
     /// How many channels a sample has.
     count: usize,
@@ -121,7 +121,7 @@ impl<T: Number> Scale<T> {
         if scale.channels == [None; 6] { Err(CalibrationDataError::Nothing) } else { Ok(scale) }
     }
 
-    /// What the device would send for a wrench, not rounded: the way back, for simulated sensors.
+    /// The counts that the device would send for a wrench, not rounded: the inverse, for simulated sensors.
     pub fn channels(&self, wrench: &Wrench<T>) -> Channels {
         let mut values = [0.0; Channels::MOST];
         for component in Component::ALL {

@@ -34,7 +34,7 @@ const PLANAR: [Component; 3] = [Component::Fx, Component::Fy, Component::Tz];
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorCheck {
-    /// What one unit of each component is, N and N m.
+    /// One unit of each component, N and N m.
     unit: Wrench,
     rated: Wrench,
     percent: Wrench,
@@ -59,7 +59,7 @@ impl SensorCheck {
         })
     }
 
-    /// What speaks against this sensor at this rod; nothing where it suits.
+    /// Findings against this sensor for this rod; empty if it suits.
     pub fn findings(&self) -> impl Iterator<Item = SensorFinding> {
         let check = *self;
         PLANAR.into_iter().flat_map(move |component| {
@@ -80,22 +80,22 @@ impl SensorCheck {
 pub enum SensorFinding {
     /// The maker's class lets errors be large beside what the rod gives.
     Class {
-        /// Of which component.
+        /// The component.
         component: Component,
         /// The class, percent.
         percent: f64,
-        /// What it is of, N or N m.
+        /// The limit, N or N m.
         rated: f64,
         /// E I / L^2 or E I / L, N or N m.
         unit: f64,
     },
     /// The rod gives more than the sensor is rated for.
     Range {
-        /// Of which component.
+        /// The component.
         component: Component,
-        /// What the sensor is rated for, N or N m.
+        /// The rated load of the sensor, N or N m.
         rated: f64,
-        /// What the rod may give, N or N m.
+        /// The largest load that the rod can cause, N or N m.
         largest: f64,
         /// E I / L^2 or E I / L, N or N m.
         unit: f64,
@@ -131,7 +131,7 @@ impl fmt::Display for SensorFinding {
                          measured bounds of its errors, or a calibration of your own, may be better than the class"
                     );
                 }
-                write!(f, "this hides most of what the rod gives, expected below {accepted:.1e} {si}. ")?;
+                write!(f, "this hides most of the load of the rod, expected below {accepted:.1e} {si}. ")?;
                 // a slip of milli leads to a range that holds what the rod gives, at an error that does not matter
                 if 1e-3 * ratio < DOMINATES && 1e-3 * rated > unit {
                     write!(f, "Is +-{rated} m{si} meant? That would be {:.1e} times. ", 1e-3 * ratio)?;

@@ -23,13 +23,13 @@ pub enum ChainError {
     },
     /// The host's time as it is, earlier than before.
     #[error(
-        "time: the host's time is {t} s after one of {before} s, expected none that runs back; sort the recording, or leave the \
+        "time: the host's time is {t} s after one of {before} s, expected increasing times; sort the recording, or leave the \
          sample out"
     )]
     HostBackwards {
         /// The time, s.
         t: f64,
-        /// That of the sample before, s.
+        /// The time of the sample before, s.
         before: f64,
     },
     /// No wrench.
@@ -40,13 +40,13 @@ pub enum ChainError {
     Stage(#[from] StageError),
     /// A wrench that is older than the one before.
     #[error(
-        "the wrench at {t} s comes after that at {before} s, expected times that do not run back; sort the recording, or leave \
+        "the wrench at {t} s comes after that at {before} s, expected increasing times; sort the recording, or leave \
          it out"
     )]
     Backwards {
         /// Its time, s.
         t: f64,
-        /// That of the one before, s.
+        /// The time of the one before, s.
         before: f64,
     },
     /// A wrench that is not finite.
@@ -54,7 +54,7 @@ pub enum ChainError {
     NotFinite {
         /// Its time, s.
         t: f64,
-        /// What came before.
+        /// The step before.
         step: &'static str,
     },
 }
@@ -66,7 +66,7 @@ pub enum SensorError<E> {
     /// There is no sample.
     #[error(transparent)]
     Source(E),
-    /// A sample gives none.
+    /// A sample without a wrench.
     #[error(transparent)]
     Chain(#[from] ChainError),
 }

@@ -43,11 +43,11 @@ pub struct SignalChain<C, S, T = f64> {
     timekeeper: Timekeeper,
     calibration: C,
     wrenches: WrenchChain<S, T>,
-    /// What a sample that went no further says of the next one.
+    /// The flags that a discarded sample passes to the next one.
     news: Quality,
 }
 
-/// What is true of the next sample where the one that says it goes no further.
+/// The flags that pass to the next sample if their sample is discarded.
 const NEWS: Quality = Quality::RESTARTED.union(Quality::GAP_BEFORE);
 
 /// Wrenches at the sensor to the reactions of the clamp: tare, pose of the clamp, mounting. Also on its own, for sensors that
@@ -75,7 +75,7 @@ pub struct WrenchChain<S, T = f64> {
     tare: Option<Tare<T>>,
     stage: S,
     mounting: Mounting<T>,
-    /// What a sample that went no further says of the next one.
+    /// The flags that a discarded sample passes to the next one.
     news: Quality,
     /// Time of the last sample, s.
     last: f64,
@@ -108,7 +108,7 @@ impl<C, S, T> SignalChain<C, S, T> {
         &self.timekeeper
     }
 
-    /// What comes after calibration.
+    /// The part of the chain after calibration.
     pub fn wrenches(&mut self) -> &mut WrenchChain<S, T> {
         &mut self.wrenches
     }
@@ -159,7 +159,7 @@ impl<S, T> WrenchChain<S, T> {
         Self { tare: None, stage, mounting, news: Quality::empty(), last: f64::NEG_INFINITY }
     }
 
-    /// Takes another tare, or none.
+    /// Replaces the tare.
     pub fn set_tare(&mut self, tare: Option<Tare<T>>) {
         self.tare = tare;
     }

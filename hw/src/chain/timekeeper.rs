@@ -1,4 +1,4 @@
-//! When samples were taken.
+//! Times of samples.
 
 use super::error::ChainError;
 use crate::sample::{Quality, RawSample};
@@ -93,7 +93,7 @@ impl Timekeeper {
     /// where that starts, if it is known. Samples without a number are counted.
     ///
     /// The fit is one of least squares that forgets, and residuals that are large beside the usual ones count as
-    /// moderate. Its times are late by the mean delay. Where samples were lost that nobody counted, it starts anew with the period that it
+    /// moderate. Its times are late by the mean delay. Where samples were lost that nobody counted, it restarts with the period that it
     /// has.
     pub fn counted(period: Option<f64>) -> Self {
         Self::of(Way::Counted(Counted::new(period.filter(|period| period.is_finite() && *period > 0.0))))
@@ -118,7 +118,7 @@ impl Timekeeper {
         Self { way, last: None, scatter: 0.0, count: 0, restarts: 0 }
     }
 
-    /// When this sample was taken, s.
+    /// Time of this sample, s.
     ///
     /// # Errors
     /// [`ChainError`]; the sample then leaves no trace.
@@ -159,7 +159,7 @@ impl Timekeeper {
         }
     }
 
-    /// How often time started anew: the device did, or samples were lost that nobody counted.
+    /// How often time restarted: the device did, or samples were lost that nobody counted.
     pub fn restarts(&self) -> u64 {
         self.restarts
     }
@@ -182,7 +182,7 @@ struct Device {
 }
 
 impl Device {
-    /// Time, what the host's stamp is off, and whether it started anew.
+    /// Time, what the host's stamp is off, and whether it restarted.
     fn time(&mut self, host: f64, own: f64, anew: bool) -> (f64, f64, bool) {
         let difference = host - own;
         let going = self.last.filter(|(last, _)| !anew && own >= *last);
@@ -227,7 +227,7 @@ impl Counted {
         Self { period, last: None, fitted, usual: 0.0, seen: 0, run: (0, 0.0) }
     }
 
-    /// Time, what the host's stamp is off, and whether the line started anew.
+    /// Time, what the host's stamp is off, and whether the line restarted.
     fn time(&mut self, host: f64, number: Option<u64>, anew: bool) -> (f64, f64, bool) {
         let known = self.last.filter(|_| !anew).and_then(|(last, line, handed)| {
             let number = number.unwrap_or(last.saturating_add(1));
@@ -292,7 +292,7 @@ struct Paced {
 }
 
 impl Paced {
-    /// Time, what the host's stamp is off, and whether it started anew.
+    /// Time, what the host's stamp is off, and whether it restarted.
     fn time(&mut self, host: f64, number: Option<u64>, anew: bool) -> (f64, f64, bool) {
         let going = self.first.filter(|_| !anew);
         let number = number.unwrap_or(if going.is_some() { self.last.saturating_add(1) } else { 0 });

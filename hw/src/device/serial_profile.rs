@@ -12,7 +12,7 @@ use crate::link::{Protocol, TransportError};
 /// let mut protocol: Box<dyn Protocol> = profile.protocol();
 /// assert_eq!(protocol.request(0.0), None); // it sends by itself
 /// let wrong = SerialProfile::parse("botta").unwrap_err().to_string();
-/// assert_eq!(wrong, "`botta` is no serial sensor that is known, expected one of: gsv8, gsv6, bota, optoforce, robotiq");
+/// assert_eq!(wrong, "`botta` is not a known serial sensor, expected one of: gsv8, gsv6, bota, optoforce, robotiq");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -10,14 +10,14 @@ pub use mounting::{Mounting, Sense};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GeometryError {
-    /// A number that is none, or cannot be what it is given for.
+    /// A number that is not finite, or not allowed for this quantity.
     #[error("{what} is {value}, expected {expected}")]
     Value {
-        /// What it is given for.
+        /// The quantity.
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What was expected.
+        /// The expected value.
         expected: &'static str,
     },
     /// Two axes along the same line.

@@ -34,7 +34,7 @@ pub struct Mounting<T = f64> {
     most_out_of_plane: Option<[T; 2]>,
 }
 
-/// What the numbers of a sensor are.
+/// The sense of the numbers of a sensor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sense {
     /// The load on the sensor: what the rod does to the clamp. The usual one.
@@ -102,7 +102,7 @@ impl<T: Number> Mounting<T> {
         self.turning.map_or(self.frame, |at| self.frame.turned(phi - at))
     }
 
-    /// What the clamp did to the rod when the sensor measured this and the clamp stood there.
+    /// The reactions of the clamp on the rod from a measurement of the sensor at this pose of the clamp.
     ///
     /// The systematic bound of m0z contains |f| times the tolerance of the lever arm, f the force in the plane. It counts
     /// what is stated: without one in the sample it is that of the lever arm alone, or none.

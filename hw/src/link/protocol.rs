@@ -21,21 +21,21 @@ pub trait Protocol {
     /// [`FrameFault`] of one frame; what follows may be good.
     fn decode(&mut self, bytes: &mut &[u8], now: f64) -> Option<Result<RawSample, FrameFault>>;
 
-    /// What to send to the device at `now` (s), if anything: what sets it up and starts it, again where it does not answer.
+    /// The request to the device at `now` (s), if one is due: it sets up and starts the device, and is repeated if there is no answer.
     fn request(&mut self, now: f64) -> Option<Request> {
         let _ = now;
         None
     }
 
-    /// What to send when no more samples are wanted, if anything.
+    /// The request that ends the samples, if there is one.
     fn farewell(&self) -> Option<Request> {
         None
     }
 
-    /// The connection was made anew: parts of frames are forgotten, the device is to be started again.
+    /// The connection was re-established: parts of frames are forgotten, the device is to be started again.
     fn reset(&mut self);
 
-    /// What came so far. The link adds what it alone knows.
+    /// The counters so far. The link adds its own.
     fn counters(&self) -> LinkCounters;
 }
 
@@ -58,7 +58,7 @@ impl<P: Protocol + ?Sized> Protocol for Box<P> {
     }
 }
 
-/// What is wrong with one frame.
+/// A fault of one frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FrameFault {
@@ -75,17 +75,17 @@ pub enum FrameFault {
     Marker {
         /// Which byte, from 0.
         at: usize,
-        /// What it is.
+        /// Its description.
         found: u8,
-        /// What it should be.
+        /// The expected value.
         expected: u8,
     },
     /// Its checksum.
     #[error("a frame with checksum {found:#06x}, expected {expected:#06x}; check baud rate and cable")]
     Checksum {
-        /// What the frame says.
+        /// The checksum in the frame.
         found: u16,
-        /// What its bytes give.
+        /// The checksum of its bytes.
         expected: u16,
     },
     /// The device refuses a request.
@@ -93,7 +93,7 @@ pub enum FrameFault {
     Refused {
         /// Command of the request.
         request: u8,
-        /// What it answers.
+        /// Its answer.
         code: u8,
     },
 }

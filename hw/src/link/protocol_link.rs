@@ -26,11 +26,11 @@ pub struct LinkSettings {
     pub deadline: f64,
     /// Number of faulty frames in a row that is an error.
     pub storm: u32,
-    /// What to do about a broken connection.
+    /// The reaction to a broken connection.
     pub reconnect: Reconnect,
 }
 
-/// What to do about a broken connection.
+/// The reaction to a broken connection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reconnect {
     /// Report it and end.
@@ -60,7 +60,7 @@ pub enum LinkError<E> {
     Timeout {
         /// How long, s.
         waited: f64,
-        /// What came so far.
+        /// The counters so far.
         counters: LinkCounters,
     },
     /// Nothing but faulty frames.
@@ -74,13 +74,13 @@ pub enum LinkError<E> {
     /// The device refuses what it is asked to do, which goes on being asked for.
     #[error("{0}")]
     Refused(FrameFault),
-    /// The connection is broken. Where the settings say so, the link tries to make it anew while it is asked for samples.
+    /// The connection is broken. Where the settings say so, the link tries to re-establish it while it is asked for samples.
     #[error("the connection is broken: {0}")]
     Broken(E),
 }
 
 /// Raw samples from a device: a protocol on a transport, as an iterator that answers within its deadline, always. It ends
-/// only where the connection breaks and is not to be made anew.
+/// only where the connection breaks and is not to be re-established.
 ///
 /// No threads and no allocation: what arrives while nobody asks is left to the buffers of the transport. Memory is one
 /// buffer of 2 KiB.
@@ -135,7 +135,7 @@ impl<T: Transport, P: Protocol, C: Clock> Link<T, P, C> {
         }
     }
 
-    /// What came so far and what did not.
+    /// The counters of received and lost samples.
     pub fn counters(&self) -> LinkCounters {
         LinkCounters {
             requests: self.requests,
@@ -148,7 +148,7 @@ impl<T: Transport, P: Protocol, C: Clock> Link<T, P, C> {
     /// Tells the device to stop.
     ///
     /// # Errors
-    /// Where the connection is broken.
+    /// If the connection is broken.
     pub fn stop(&mut self) -> Result<(), T::Error> {
         self.connection = Connection::Ended;
         self.protocol.farewell().map_or(Ok(()), |bytes| self.transport.send(&bytes))

@@ -2,7 +2,7 @@
 
 /// Follows the counter of a device, which wraps.
 ///
-/// A number up to half the range ahead is an advance, one behind is late. A device that starts anew counts from a low number
+/// A number up to half the range ahead is an advance, one behind is late. A device that restarts counts from a low number
 /// again, which looks late at first: two numbers in a row that are behind and follow each other are a restart.
 ///
 /// ```
@@ -22,7 +22,7 @@ pub struct Sequence {
     candidate: Option<u32>,
 }
 
-/// What a number means beside the ones before.
+/// The meaning of a number after the ones before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SequenceStep {
     /// The first one.
@@ -33,9 +33,9 @@ pub enum SequenceStep {
     Gap(u32),
     /// The one before once more.
     Repeated,
-    /// One that should have come before, or the first of a device that started anew.
+    /// One that should have come before, or the first of a device that restarted.
     Late,
-    /// The second of a device that started anew.
+    /// The second of a device that restarted.
     Restarted,
 }
 

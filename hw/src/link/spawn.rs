@@ -53,7 +53,7 @@ struct Shared {
 /// ```
 ///
 /// # Errors
-/// Where the system has no thread to give.
+/// If the system cannot start a thread.
 pub fn spawn<T, P, C>(link: Link<T, P, C>, capacity: usize) -> Result<Spawned<T::Error>, Error>
 where
     T: Transport<Error: Send> + Send + 'static,
@@ -103,7 +103,7 @@ where
 }
 
 impl<E> Spawned<E> {
-    /// What came so far and what did not.
+    /// The counters of received and lost samples.
     pub fn counters(&self) -> LinkCounters {
         *self.shared.counters.lock().unwrap_or_else(PoisonError::into_inner)
     }

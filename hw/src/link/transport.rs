@@ -10,20 +10,20 @@ pub trait Transport {
     /// Sends all of the bytes.
     ///
     /// # Errors
-    /// Where the connection is broken.
+    /// If the connection is broken.
     fn send(&mut self, bytes: &[u8]) -> Result<(), Self::Error>;
 
-    /// Puts what comes within `wait` at the front of the buffer and returns how many bytes that is; none where nothing
+    /// Puts what comes within `wait` at the front of the buffer and returns how many bytes that is; `None` if nothing
     /// comes. Of a datagram longer than the buffer, its beginning and its true length.
     ///
     /// # Errors
-    /// Where the connection is broken, or ended by the other side.
+    /// If the connection is broken, or closed by the other side.
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> Result<Option<usize>, Self::Error>;
 
     /// Reconnects.
     ///
     /// # Errors
-    /// Where that does not work (yet), or not at all for this transport.
+    /// If that fails, or this transport does not support it.
     fn reconnect(&mut self) -> Result<(), Self::Error>;
 
     /// Number of datagrams that were ignored: from another address, or empty.
@@ -32,7 +32,7 @@ pub trait Transport {
     }
 }
 
-/// Why there is no connection to a device, or none any more.
+/// Why a connection to a device cannot be opened, or has broken.
 #[cfg(feature = "std")]
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -40,9 +40,9 @@ pub enum TransportError {
     /// The name has no address.
     #[error("`{host}` has no address ({cause}), expected host:port like `192.168.1.1:49152`; check name and network")]
     Address {
-        /// What was asked for.
+        /// The requested address.
         host: String,
-        /// Why.
+        /// The reason.
         cause: std::io::Error,
     },
     /// No socket to be had.
@@ -50,7 +50,7 @@ pub enum TransportError {
     Socket {
         /// The device.
         peer: std::net::SocketAddr,
-        /// Why.
+        /// The reason.
         cause: std::io::Error,
     },
     /// It does not take or bring datagrams any more.
@@ -58,7 +58,7 @@ pub enum TransportError {
     UdpBroken {
         /// The device.
         peer: std::net::SocketAddr,
-        /// Why.
+        /// The reason.
         cause: std::io::Error,
     },
     /// It cannot be opened.
@@ -79,13 +79,13 @@ pub enum TransportError {
     SerialBroken {
         /// Its path.
         path: String,
-        /// Why.
+        /// The reason.
         source: std::io::Error,
     },
     /// No serial sensor of this name.
-    #[error("`{name}` is no serial sensor that is known, expected one of: {known}")]
+    #[error("`{name}` is not a known serial sensor, expected one of: {known}")]
     Profile {
-        /// What was asked for.
+        /// The requested address.
         name: String,
         /// Those there are.
         known: String,

@@ -17,7 +17,7 @@ const LONGEST: usize = 65_535;
 /// Datagrams to and from one device. What others send is left out and counted, and so are empty datagrams; of one longer
 /// than the buffer comes its beginning, with its true length.
 ///
-/// Of the addresses of a name the first of version 4 is taken, which these devices speak, else the first one.
+/// If a name has several addresses, the first one of IPv4 is used, which these devices speak, else the first one.
 ///
 /// ```
 /// use rod_hw::{Transport, Udp};

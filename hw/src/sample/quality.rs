@@ -19,7 +19,7 @@ bitflags::bitflags! {
         const DEVICE_ERROR = 1 << 2;
         /// Samples before it are missing.
         const GAP_BEFORE = 1 << 3;
-        /// The first one after the device or the connection started anew.
+        /// The first sample after a restart of the device or the connection.
         const RESTARTED = 1 << 4;
         /// Interpolated, not measured.
         const INTERPOLATED = 1 << 5;

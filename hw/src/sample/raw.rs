@@ -52,7 +52,7 @@ impl Channels {
     /// How many values there can be.
     pub const MOST: usize = 16;
 
-    /// These values; none where they are more than [`MOST`](Self::MOST).
+    /// These values; `None` if there are more than [`MOST`](Self::MOST).
     pub fn new(values: &[f64]) -> Option<Self> {
         let mut channels = Self { values: [0.0; Self::MOST], count: values.len() };
         channels.values.get_mut(..values.len())?.copy_from_slice(values);

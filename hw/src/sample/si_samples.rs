@@ -54,7 +54,7 @@ pub struct ReactionSample<T = f64> {
     pub sigma: Option<Reactions<T>>,
     /// Bounds of the systematic error, where they are known.
     pub systematic: Option<Reactions<T>>,
-    /// What a planar rod cannot cause.
+    /// Components that a planar rod cannot cause.
     pub out_of_plane: OutOfPlane<T>,
     /// Quality flags.
     pub quality: Quality,

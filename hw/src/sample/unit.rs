@@ -6,7 +6,7 @@ use Dimension::{
 };
 use core::f64::consts::PI;
 
-/// What a unit measures.
+/// The dimension of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Dimension {
     /// In SI: N.
@@ -27,9 +27,9 @@ pub enum Dimension {
     Curvature,
     /// In SI: N m^2.
     BendingStiffness,
-    /// Of a spring. In SI: N/m.
+    /// Stiffness of a spring. In SI: N/m.
     Stiffness,
-    /// Of a spring against rotation. In SI: N m/rad.
+    /// Stiffness of a spring against rotation. In SI: N m/rad.
     RotationalStiffness,
 }
 
@@ -48,7 +48,7 @@ pub enum Dimension {
 pub struct Unit {
     /// How it is usually written.
     pub name: &'static str,
-    /// What it measures.
+    /// Its dimension.
     pub dimension: Dimension,
     /// One of it in SI.
     pub factor: f64,
@@ -59,11 +59,11 @@ pub struct Unit {
 #[non_exhaustive]
 pub enum UnitError {
     /// No such spelling.
-    #[error("`{shown}` is no unit that is known, expected one of {expected}: {}", List(*.expected))]
+    #[error("`{shown}` is not a known unit, expected one of {expected}: {}", List(*.expected))]
     Unknown {
         /// The text, or its beginning.
         shown: Shown,
-        /// What is expected.
+        /// The expected value.
         expected: Dimension,
     },
     /// A unit of something else.
@@ -71,7 +71,7 @@ pub enum UnitError {
     Dimension {
         /// The unit it is.
         found: Unit,
-        /// What is expected.
+        /// The expected value.
         expected: Dimension,
     },
 }
@@ -297,17 +297,14 @@ mod tests {
             assert_eq!(Unit::find(text), None, "{text}");
         }
         let error = Unit::parse("counts", Force).unwrap_err().to_string();
-        assert_eq!(
-            error,
-            "`counts` is no unit that is known, expected one of force: N, mN, uN, cN, kN, lbf, klbf, kgf, gf"
-        );
+        assert_eq!(error, "`counts` is not a known unit, expected one of force: N, mN, uN, cN, kN, lbf, klbf, kgf, gf");
     }
 
     #[test]
     fn long_texts_are_cut_between_characters() {
         let message = |text: &str| Unit::parse(text, Force).unwrap_err().to_string();
-        assert!(message("µµµµµµµµµµµµµµµµµ").starts_with("`µµµµµµµµµµµµµµµ` is no unit"));
-        assert!(message("").starts_with("`` is no unit"));
+        assert!(message("µµµµµµµµµµµµµµµµµ").starts_with("`µµµµµµµµµµµµµµµ` is not a known unit"));
+        assert!(message("").starts_with("`` is not a known unit"));
         assert!(size_of::<UnitError>() <= 64, "{}", size_of::<UnitError>());
     }
 

@@ -7,7 +7,7 @@ pub(crate) enum Order {
     Big,
 }
 
-/// Defines a number from its bytes at a place; none where they are not all there.
+/// Defines a number from its bytes at a place; `None` if they are not all there.
 macro_rules! numbers {
     ($($name:ident $number:ty),*) => {
         impl Order {
@@ -32,7 +32,7 @@ pub(crate) struct Cursor<'a> {
     order: Order,
 }
 
-/// Where the bytes end too early.
+/// If the bytes end too early.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct End(pub usize);
 

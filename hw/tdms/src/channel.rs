@@ -55,12 +55,12 @@ impl<'f> TdmsChannel<'f> {
         self.contents.series.iter().map(|series| series.count).min().unwrap_or(0)
     }
 
-    /// Whether it has none.
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// What its raw values are of; none where it has none. Of several DAQmx scalers it is the first one's.
+    /// The data type of its raw values; `None` if it has no values. With several DAQmx scalers it is that of the first.
     pub fn data_type(&self) -> Option<DataType> {
         self.contents.series.first()?.runs.first().map(|run| run.data_type)
     }

@@ -1,4 +1,4 @@
-//! What is in a file: groups, channels, their properties, and where their values lie.
+//! The contents of a file: groups, channels, their properties, and the places of their values.
 
 use super::data_type::DataType;
 use super::property::TdmsProperties;
@@ -39,7 +39,7 @@ pub(super) enum Target {
 }
 
 impl Contents {
-    /// The object of a path, which is added; none where the path is none.
+    /// The object of a path, which is added; `None` if the path is invalid.
     pub fn add(&mut self, path: &str) -> Option<Target> {
         Some(match parts(path)?.as_slice() {
             [] => Target::Root,
@@ -80,7 +80,7 @@ impl Contents {
     /// More values of an object.
     ///
     /// # Errors
-    /// What is wrong where they do not go with those before.
+    /// The fault if they contradict the ones before.
     pub fn add_run(&mut self, target: Target, id: Option<u32>, run: Run) -> Result<(), &'static str> {
         /// Each is looked up among all of a channel.
         const MOST: usize = 64;

@@ -1,9 +1,9 @@
-//! What values are of.
+//! The data types of values.
 
 use super::timestamp::TdmsTimestamp;
 use crate::bytes::Order;
 
-/// What the values of a channel are of.
+/// The data type of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the names say it")]
@@ -68,7 +68,7 @@ impl DataType {
         TYPES.get(code as usize).copied()
     }
 
-    /// Bytes of a value; none where they differ.
+    /// Bytes of a value; `None` if they differ.
     pub(super) fn size(self) -> Option<usize> {
         Some(match self {
             Self::I8 | Self::U8 | Self::Bool | Self::Bit => 1,
@@ -85,7 +85,7 @@ impl DataType {
         !matches!(self, Self::Text | Self::ComplexF32 | Self::ComplexF64)
     }
 
-    /// A value as a number; none where the bytes end before, or where it is none.
+    /// A value as a number; `None` if the bytes end before, or where it is none.
     #[expect(clippy::cast_precision_loss, reason = "counts beyond 2^53 are documented to be rounded")]
     pub(super) fn number(self, bytes: &[u8], at: usize, order: Order) -> Option<f64> {
         Some(match self {

@@ -1,4 +1,4 @@
-//! What can be wrong with a TDMS file.
+//! Errors of TDMS files.
 
 use super::data_type::DataType;
 
@@ -11,7 +11,7 @@ pub enum TdmsError {
     Io {
         /// Which one.
         path: std::path::PathBuf,
-        /// What the system says.
+        /// The message of the operating system.
         source: std::io::Error,
     },
     /// Not a TDMS file.
@@ -26,13 +26,13 @@ pub enum TdmsError {
     /// No such group or channel.
     #[error("no channel `{channel}` in group `{group}`; there are {}{}", List(.present), Because(.fault))]
     NoChannel {
-        /// The group asked for.
+        /// The requested group.
         group: String,
-        /// The channel asked for.
+        /// The requested channel.
         channel: String,
         /// Group and name of the channels there are.
         present: Vec<(String, String)>,
-        /// Where the file could not be read to its end, why.
+        /// The reason, if the file could not be read to its end.
         fault: Option<Box<TdmsFault>>,
     },
     /// Texts or complex numbers where real ones are wanted, or the other way round.
@@ -40,9 +40,9 @@ pub enum TdmsError {
     Type {
         /// Its name.
         channel: String,
-        /// What it is of.
+        /// Its kind.
         found: DataType,
-        /// What is wanted.
+        /// The requested data type.
         expected: &'static str,
     },
     /// A scaling that is not known here, or incomplete.
@@ -52,9 +52,9 @@ pub enum TdmsError {
         channel: String,
         /// Number of the scale, from 0.
         scale: usize,
-        /// What it is.
+        /// Its description.
         what: String,
-        /// What is known.
+        /// The known ones.
         known: &'static str,
     },
     /// No time axis.
@@ -87,15 +87,15 @@ pub enum TdmsError {
         /// Its step, s.
         increment: f64,
     },
-    /// Too many channels side by side, or none.
+    /// Too many channels side by side, or no channel.
     #[error("{found} channels side by side, expected 1 to {most}")]
     Count {
-        /// How many were asked for.
+        /// The requested number.
         found: usize,
         /// How many there can be.
         most: usize,
     },
-    /// A rate that is none.
+    /// A rate that is not a positive number.
     #[error("a rate of {0} samples/s, expected a finite number above 0")]
     Rate(f64),
     /// A time that is no number.
@@ -105,11 +105,11 @@ pub enum TdmsError {
         channel: String,
         /// Which value, from 0.
         row: usize,
-        /// What it is.
+        /// Its description.
         value: f64,
     },
     /// One of the channels ends before another.
-    #[error("channel `{channel}` ends after {found} values, another has {most}; the rest of the others is left out")]
+    #[error("channel `{channel}` ends after {found} values, another has {most}; the other channels are cut there")]
     Uneven {
         /// The shortest one.
         channel: String,
@@ -133,22 +133,22 @@ pub enum TdmsFault {
          missing, what is complete was read"
     )]
     Truncated {
-        /// Where the segment begins.
+        /// Byte at which the segment begins.
         segment: usize,
         /// Length of the file.
         end: usize,
-        /// Where the segment should end.
+        /// Byte at which the segment should end.
         expected: u64,
         /// How many bytes there should be beyond the end.
         missing: u64,
     },
     /// The program that wrote the file did not come to finish its last segment.
     #[error(
-        "the segment at byte {segment} was never finished: the program that wrote it broke off; what is complete up to the \
+        "the segment at byte {segment} was never finished: the program that wrote it was interrupted; the complete data up to the \
          end of the file, byte {end}, was read"
     )]
     Unfinished {
-        /// Where the segment begins.
+        /// Byte at which the segment begins.
         segment: usize,
         /// Length of the file.
         end: usize,
@@ -158,15 +158,15 @@ pub enum TdmsFault {
         "the segment at byte {at} begins with {found:02x?}, expected the bytes of `TDSm`; nothing was read from there on"
     )]
     Tag {
-        /// Where it begins.
+        /// Byte at which it begins.
         at: usize,
-        /// What is there.
+        /// The bytes found there.
         found: [u8; 4],
     },
     /// The description of a segment breaks off.
     #[error("the description of the segment at byte {segment} breaks off at byte {at}; nothing was read from there on")]
     Metadata {
-        /// Where the segment begins.
+        /// Byte at which the segment begins.
         segment: usize,
         /// Where something should be that is not.
         at: usize,
@@ -176,23 +176,23 @@ pub enum TdmsFault {
         "byte {at}: {what} is {found:#x}, expected {expected}; nothing was read from the segment at byte {segment} on"
     )]
     Unknown {
-        /// Where the segment begins.
+        /// Byte at which the segment begins.
         segment: usize,
-        /// Where it is.
+        /// Its byte.
         at: usize,
         /// Its name.
         what: &'static str,
         /// Its value.
         found: u64,
-        /// What is understood.
+        /// The understood values.
         expected: &'static str,
     },
-    /// A path of an object that is none.
+    /// An invalid path of an object.
     #[error(
         "byte {at}: the object path `{path}` is not of the form /'group'/'channel'; nothing was read from there on"
     )]
     Path {
-        /// Where it is.
+        /// Its byte.
         at: usize,
         /// The path.
         path: String,
@@ -200,14 +200,14 @@ pub enum TdmsFault {
     /// The description of a segment and its data do not go together.
     #[error("the segment at byte {segment}: {what}; nothing was read from there on")]
     Layout {
-        /// Where the segment begins.
+        /// Byte at which the segment begins.
         segment: usize,
-        /// What does not fit.
+        /// The contradiction.
         what: &'static str,
     },
 }
 
-/// What follows an error where the file is incomplete.
+/// The addition to an error message if the file is incomplete.
 struct Because<'a>(&'a Option<Box<TdmsFault>>);
 
 impl core::fmt::Display for Because<'_> {

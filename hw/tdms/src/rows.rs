@@ -20,7 +20,7 @@ pub enum TdmsTime<'n> {
 pub struct TdmsRow {
     /// Its place in the file, from 0.
     pub number: usize,
-    /// When it was taken, s.
+    /// The time of the row, s.
     pub time: f64,
     /// Whether a count of a card (DAQmx) is the smallest or largest one of its type: the true value may be beyond.
     pub is_at_rail: bool,
@@ -48,7 +48,7 @@ pub struct TdmsRows<'f> {
     time: Time<'f>,
     row: usize,
     rows: usize,
-    /// What is to be told at the end, the last one first.
+    /// The faults to report at the end, the last one first.
     faults: Vec<Fault>,
 }
 

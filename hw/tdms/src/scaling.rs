@@ -31,7 +31,7 @@ enum Scale {
     Subtract(Input, Input),
 }
 
-/// What a scale takes.
+/// The input of a scale.
 #[derive(Clone, Copy, Debug)]
 enum Input {
     Raw,
@@ -42,7 +42,7 @@ enum Input {
 const KNOWN: &str = "Linear, Polynomial, Add, Subtract, AdvancedAPI";
 
 impl Scaling {
-    /// By the properties of the channel, its group or the file, whichever first has any; none where the values are meant as
+    /// By the properties of the channel, its group or the file, whichever first has any; `None` if the values are meant as
     /// they are.
     pub fn new(channel: &ChannelContents, of_all: [&TdmsProperties; 3]) -> Result<Option<Self>, TdmsError> {
         let Some((properties, count)) = of_all.into_iter().find_map(|p| Some((p, count(p)?))) else { return Ok(None) };
@@ -89,7 +89,7 @@ impl Scaling {
         })
     }
 
-    /// Of one raw value of each series.
+    /// The scaled value of one raw value of each series.
     pub fn apply(&mut self, raw: &[f64]) -> f64 {
         for k in 0..self.scales.len() {
             let Some(Some(scale)) = self.scales.get(k) else { continue };
@@ -171,7 +171,7 @@ impl Scale {
     }
 }
 
-/// How many scales there are; none where there are none.
+/// The number of scales; `None` if there are no scales.
 fn count(properties: &TdmsProperties) -> Option<usize> {
     let count = match properties.get("NI_Number_Of_Scales") {
         Some(value) => value.count()?,

@@ -7,7 +7,7 @@ use crate::bytes::Order;
 pub struct TdmsTimestamp {
     /// Whole seconds since 1904-01-01 00:00 UTC, without leap seconds.
     pub seconds: i64,
-    /// What is beyond, in units of 2^-64 s.
+    /// The fraction of a second, in units of 2^-64 s.
     pub fraction: u64,
 }
 

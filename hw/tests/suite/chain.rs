@@ -262,7 +262,7 @@ fn time_that_runs_back_is_refused() {
     assert_eq!((times[0], times[2], times[3]), (Ok(1.0), Ok(1.0), Ok(1.1)));
     assert_eq!(
         times[1].unwrap_err().to_string(),
-        "time: the host's time is 0.9 s after one of 1 s, expected none that runs back; sort the recording, or leave the \
+        "time: the host's time is 0.9 s after one of 1 s, expected increasing times; sort the recording, or leave the \
          sample out"
     );
     let mut chain = WrenchChain::new(|_| Ok(start()), Mounting::new(Frame::same()));
@@ -271,7 +271,7 @@ fn time_that_runs_back_is_refused() {
     assert_eq!((times[0], times[2]), (Ok(1.0), Ok(1.1)));
     assert_eq!(
         times[1].unwrap_err().to_string(),
-        "the wrench at 0.9 s comes after that at 1 s, expected times that do not run back; sort the recording, or leave it out"
+        "the wrench at 0.9 s comes after that at 1 s, expected increasing times; sort the recording, or leave it out"
     );
 }
 

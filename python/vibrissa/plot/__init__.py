@@ -7,11 +7,9 @@ Lines have labels: ``ax.legend()`` explains them in axes of yours. :func:`style`
 Matplotlib is an optional dependency: ``pip install vibrissa[plot]``.
 """
 
-from __future__ import annotations
+from .._tables import optional as _optional
 
-from .._tables import optional
-
-optional("matplotlib")
+_optional("matplotlib")
 
 from ._along import criterion, forces, hysteresis, phase_criterion, reactions  # noqa: E402
 from ._palette import phase_color  # noqa: E402

@@ -181,7 +181,10 @@ def _outline(one: Composite, window: Window) -> Array:
 
 
 def elastica(found: list[Elastica], ax: Axes | None = None) -> Axes:
-    """Draw equilibria of a rod without contacts: stable ones as lines, unstable ones dashed, each with its number at the tip.
+    """Draw equilibria of a rod without contacts: stable ones as lines, unstable ones dashed.
+
+    The number of each equilibrium stands beside its shape where this is farthest from the others. A tip whose place and angle are held has a plate across
+    the rod, as the clamp has.
 
     Parameters
     ----------
@@ -194,29 +197,61 @@ def elastica(found: list[Elastica], ax: Axes | None = None) -> Axes:
     -------
     matplotlib.axes.Axes
     """
-    window = _window(np.concatenate([np.zeros((0, 2)), *(one.points[:, 1:3] for one in found)]), (), margin=0.1)
+    curves = [one.points for one in found]
+    window = _window(np.concatenate([np.zeros((0, 2)), *(points[:, 1:3] for points in curves)]), (), margin=0.1)
     is_own = ax is None
     ax = ax or _new_axes(window)
-    tips = np.array([one.tip[:2] for one in found])
-    held = len(found) > 1 and bool(np.ptp(tips, axis=0).max() < 1e-9 * found[0].rod.length)
     named: set[str] = set()
-    for one in reversed(found):
-        points = one.points
-        color = OTHERS[one.branch % len(OTHERS)]
+    for one, points in reversed(list(zip(found, curves))):
         style: dict[str, Any] = {"linewidth": LINE} if one.stable else {"linewidth": 0.8, "linestyle": _DASHED}
         name = "stable" if one.stable else "unstable"
-        ax.plot(points[:, 1], points[:, 2], color=color, label=None if name in named else name, **style)
+        ax.plot(points[:, 1], points[:, 2], color=OTHERS[one.branch % len(OTHERS)], label=None if name in named else name, **style)
         named.add(name)
-        # all tips that are held are at one place
-        x, y, phi = points[len(points) // 2, 1:4] if held else one.tip
-        side = math.pi / 2 if held else 0.0
-        beside = (6.0 * math.cos(phi + side), 6.0 * math.sin(phi + side))
+    held = {one.pose for one in found} | {one.tip for one in found if all(one.tip_held)}
+    beside = 0.04 * max((one.rod.length for one in found), default=0.0)
+    places = _number_places([points[:, 1:4] for points in curves], sorted(held), beside)
+    for one, (x, y, direction) in zip(found, places):
+        offset = (6.0 * math.cos(direction), 6.0 * math.sin(direction))
         text: dict[str, Any] = {"textcoords": "offset points", "ha": "center", "va": "center", "fontproperties": small(ax)}
-        ax.annotate(str(one.branch), (x, y), beside, color=color, **text)
-    for x, y, phi in {one.pose for one in found}:
+        ax.annotate(str(one.branch), (x, y), offset, color=OTHERS[one.branch % len(OTHERS)], **text)
+    for x, y, phi in held:
         # a plate across the rod
         ax.plot([x], [y], marker=(2, 2, math.degrees(phi)), markersize=9.0, markeredgewidth=1.0, color=INK)
     return _shown(ax, window, is_own and len(named) > 1)
+
+
+# Points of a shape beside which its number may stand, and points of the other shapes from which the distance is measured.
+_PLACES, _SHAPE_POINTS = 25, 100
+
+
+def _number_places(shapes: list[Array], clamps: Sequence[tuple[float, float, float]], beside: float) -> list[tuple[float, float, float]]:
+    """For each shape (rows x, y in m, phi in rad) a point on it, x and y, and the direction from there to its number.
+
+    The number stands at about the distance ``beside`` (m) from its own shape, and as far as possible from the other shapes, the clamps and the numbers
+    before it.
+    """
+    thinned = [shape[np.unique(np.linspace(0, len(shape) - 1, _SHAPE_POINTS).astype(int))] for shape in shapes]
+    taken = np.array(clamps).reshape(-1, 3)[:, :2]
+    places = []
+    for k, shape in enumerate(thinned):
+        # from the tip on, which is the first of places that are as good
+        x, y, phi = np.repeat(shape[np.linspace(len(shape) - 1, 0, _PLACES).astype(int)], 2, axis=0).T
+        direction = phi + np.tile([0.5 * math.pi, -0.5 * math.pi], _PLACES)
+        number = np.column_stack([x + beside * np.cos(direction), y + beside * np.sin(direction)])
+        others = np.concatenate([taken, *(other[:, :2] for j, other in enumerate(thinned) if j != k)])
+        free = np.minimum(_distances(number, others), _distances(np.column_stack([x, y]), others))
+        # it keeps off its own shape, too, which may come back
+        best = int(np.argmax(np.round(np.where(_distances(number, shape[:, :2]) > 0.9 * beside, free, 0.5 * free), 9)))
+        places.append((float(x[best]), float(y[best]), float(direction[best])))
+        taken = np.append(taken, number[best : best + 1], axis=0)
+    return places
+
+
+def _distances(places: Array, points: Array) -> Array:
+    """The distance of each place from the nearest of the points, m; infinite without points."""
+    if not len(points):
+        return np.full(len(places), math.inf)
+    return np.asarray(np.hypot(*(places[:, None] - points).transpose(2, 0, 1)).min(axis=1))
 
 
 def contour(

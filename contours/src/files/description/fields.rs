@@ -137,7 +137,7 @@ fn angles(from: Option<f64>, to: Option<f64>) -> Result<[f64; 2], ShapeError> {
     }
 }
 
-/// Said of one angle of an arc without the other, `*`.
+/// The message for one angle of an arc without the other, `*`.
 const WITHOUT: &str = "given without *, expected both, or neither for a closed curve";
 
 fields! {
@@ -235,7 +235,7 @@ fields! {
         /// A CSV file of points.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         file: Option<PathBuf> => None,
-        /// What holds at the ends; natural unless given.
+        /// The condition at the ends; natural unless given.
         #[serde(default)]
         end: SplineEndField => None,
         /// Tangent angle at the start of a clamped one; estimated unless given.
@@ -250,7 +250,7 @@ fields! {
     }
 }
 
-/// What holds at the ends of a spline.
+/// The conditions at the ends of a spline.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SplineEndField {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::Point;
 
-/// What a field is measured in.
+/// The unit of a field.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum FieldUnit {
     /// The unit of length of the file: m in scene files.
@@ -22,13 +22,13 @@ pub enum FieldUnit {
 pub struct FieldInfo {
     /// Its name.
     pub name: &'static str,
-    /// What is written there, such as `number` or `[x, y]`.
+    /// The form of the value, such as `number` or `[x, y]`.
     pub kind: &'static str,
     /// Its unit.
     pub unit: FieldUnit,
     /// Whether it must be given.
     pub required: bool,
-    /// What it means.
+    /// Its meaning.
     pub meaning: &'static str,
 }
 
@@ -37,7 +37,7 @@ pub struct FieldInfo {
 pub struct ShapeInfo {
     /// Its name.
     pub name: &'static str,
-    /// What it is.
+    /// Its description.
     pub meaning: &'static str,
     /// Its fields.
     pub fields: &'static [FieldInfo],

@@ -41,7 +41,7 @@ impl Cubic {
         [first, extremum, last].iter().all(|bend| sense * bend >= -tolerance)
     }
 
-    /// What rounding of the control points makes of a product of a velocity and a velocity or rate.
+    /// Error of a product of a velocity and a velocity or rate by the rounding of the control points.
     pub fn tolerance(&self, velocity: &Velocity) -> f64 {
         let scale = self.control.iter().flatten().fold(0.0_f64, |scale, side| scale.max(side.abs()));
         let size = velocity.size();

@@ -39,7 +39,7 @@ impl Node {
     }
 }
 
-/// What [`Chords::visit`] looks for.
+/// The query of [`Chords::visit`].
 struct Visit<'a, P, F> {
     span: Span<usize>,
     seen_from: Point,

@@ -1,9 +1,9 @@
-//! What holds at the ends of a spline.
+//! The conditions at the ends of a spline.
 
 use crate::point::{minus, plus};
 use crate::{ContourError, Vector, check};
 
-/// What holds at the ends of a spline through points.
+/// The conditions at the ends of a spline through points.
 ///
 /// ```
 /// use rod_contours::{Contour, Spline, SplineEnd};
@@ -37,7 +37,7 @@ pub enum SplineEnd {
 }
 
 impl SplineEnd {
-    /// That angles are numbers.
+    /// Checks that angles are finite.
     pub(super) fn check(&self) -> Result<(), ContourError> {
         let Self::Clamped { from, to } = *self else { return Ok(()) };
         let angles = [("the tangent angle at the spline's start", from), ("the tangent angle at the spline's end", to)];

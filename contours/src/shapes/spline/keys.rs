@@ -32,7 +32,7 @@ impl Keys {
         Self(splines::Spline::from_iter(keys))
     }
 
-    /// That these are keys this crate would write: at least two, finite, in order, with two handles each.
+    /// Checks that this crate could have written these keys: at least two, finite, in order, with two handles each.
     pub fn check(&self) -> Result<(), ContourError> {
         let keys = self.0.keys();
         if keys.len() < 2 {
@@ -87,7 +87,7 @@ impl Keys {
         keys[1..keys.len() - 1].partition_point(|key| key.t <= t)
     }
 
-    /// The point at `t` by the crate's own arithmetic; none beyond the ends.
+    /// The point at `t` by the crate's own arithmetic; `None` beyond the ends.
     pub fn sample(&self, t: f64) -> Option<Point> {
         // The crate gives no value at the last key, and panics on NaN.
         let (first, last) = (self.knot(0), self.knot(self.len() - 1));

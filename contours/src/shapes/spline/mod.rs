@@ -238,7 +238,7 @@ impl Contour for Spline {
         self.parted(range)
     }
 
-    /// What bends one way only and turns by at most a half turn, in which case it lies on one side of each tangent.
+    /// Whether the part bends one way only and turns by at most a half turn: then it lies on one side of each of its tangents.
     fn is_convex(&self, range: Range) -> bool {
         let range = self.range().within(range);
         self.bends_one_way(range) && (self.frame(range.to).alpha - self.frame(range.from).alpha).abs() <= PI

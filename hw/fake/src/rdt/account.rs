@@ -1,26 +1,26 @@
-//! What a fake sensor did.
+//! The account of a fake sensor.
 
 use super::settings::FakeRdtSettings;
 use std::net::SocketAddr;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// What a fake sensor did so far. Each of `records` is one of `sent`, `dropped`, `damaged`.
+/// The account of a fake sensor. Each of `records` is one of `sent`, `dropped`, `damaged`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FakeRdtAccount {
     /// Records made, with those of a stall.
     pub records: u64,
-    /// Of these: sent, once or more, in time or late.
+    /// Records sent at least once, in time or late.
     pub sent: u64,
-    /// Of these: never sent.
+    /// Records never sent.
     pub dropped: u64,
-    /// Of these: sent with a wrong length.
+    /// Records sent with a wrong length.
     pub damaged: u64,
-    /// Of those sent: with the sample of the record before.
+    /// Sent records with the sample of the record before.
     pub stalled: u64,
-    /// Of those sent: after later ones.
+    /// Sent records that came after later ones.
     pub overtaken: u64,
-    /// Of those sent: with a status that is not 0.
+    /// Sent records with a status other than 0.
     pub flagged: u64,
     /// Sent once more.
     pub repeated: u64,
@@ -40,7 +40,7 @@ pub struct FakeRdtAccount {
     pub answers: u64,
 }
 
-/// What the threads know of each other.
+/// State that the threads share.
 #[derive(Debug)]
 pub(super) struct Shared {
     state: Mutex<State>,
@@ -78,7 +78,7 @@ impl Shared {
         Self { state: Mutex::new(state), changed: Condvar::new(), stop: AtomicBool::new(false) }
     }
 
-    /// The state; what a thread that panicked left of it is good, too.
+    /// The state. It stays valid if a thread panics.
     pub(super) fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,4 +1,4 @@
-//! A sensor that is none.
+//! A simulated sensor.
 
 mod account;
 mod pace;
@@ -102,7 +102,7 @@ impl FakeRdt {
         self.scaling_address
     }
 
-    /// What it did so far.
+    /// The account so far.
     pub fn account(&self) -> FakeRdtAccount {
         self.shared.lock().account
     }

@@ -37,7 +37,7 @@ impl Pace {
         due.saturating_duration_since(now)
     }
 
-    /// A step is taken.
+    /// A step has passed.
     pub(super) fn step(&mut self) {
         self.steps += 1;
     }

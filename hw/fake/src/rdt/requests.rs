@@ -1,4 +1,4 @@
-//! What a fake sensor is asked.
+//! The requests to a fake sensor.
 
 use super::account::{Shared, State};
 use rod_hw::device::rdt::{RdtRequest, RdtScaling};

@@ -1,10 +1,10 @@
-//! What a fake sensor is to be.
+//! The settings of a fake sensor.
 
 use rod_hw::device::rdt::RdtScaling;
 use rod_hw::{Dimension, Unit};
 use std::net::{Ipv4Addr, SocketAddr};
 
-/// What a fake sensor is, how fast, and how it goes wrong.
+/// The settings of a fake sensor: its scaling, its rate and its faults.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FakeRdtSettings {
     /// Where it listens; port 0 takes any that is free.
@@ -13,7 +13,7 @@ pub struct FakeRdtSettings {
     pub scaling_address: Option<SocketAddr>,
     /// Records a second; none means as fast as possible.
     pub rate: Option<f64>,
-    /// What its counts are.
+    /// The scaling of its counts.
     pub scaling: RdtScaling,
     /// Number of the first record after a start, 1 for real ones.
     pub first_packet: u32,
@@ -25,7 +25,7 @@ pub struct FakeRdtSettings {
     pub ignored_starts: u32,
     /// From the first start to the first record, s.
     pub start_delay: f64,
-    /// What goes wrong, and with which record, from 0, at the earliest. Of several at one record, each does.
+    /// The faults, each with the number of the earliest record, from 0. Several faults at one record all happen.
     pub faults: Vec<(u64, RdtFault)>,
 }
 
@@ -54,36 +54,36 @@ impl Default for FakeRdtSettings {
     }
 }
 
-/// What goes wrong at one record.
+/// A fault at one record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RdtFault {
-    /// It and those after it, so many in all, are never sent.
+    /// This number of records, from this one on, is never sent.
     Drop(u64),
-    /// It is sent once more, so many times.
+    /// The record is repeated this many times.
     Repeat(u64),
-    /// It is sent after so many later ones.
+    /// The record is sent after this number of later ones.
     Overtaken(u64),
-    /// Before it come so many with the sample of the one before, as of a sensor whose clock stands still.
+    /// Before it come this many records with the sample of the one before, as from a sensor whose clock has stopped.
     Stall(u64),
-    /// Nothing is sent for so long, s; then it goes on where it was.
+    /// Nothing is sent for this time, s; then the sensor continues where it was.
     Pause(f64),
     /// Its sample has the first number again; the packets go on.
     CountAnew,
-    /// No power for so long, s: requests come to nothing, then it waits to be started and counts samples from the first number.
+    /// No power for this time, s: requests come to nothing, then it waits to be started and counts samples from the first number.
     PowerOff(f64),
-    /// These bits are set in the status of it and those after it, so many in all.
+    /// These bits are set in the status of this number of records, from this one on.
     Status {
         /// Which bits.
         bits: u32,
         /// How many records.
         count: u64,
     },
-    /// Only so many bytes of it are sent.
+    /// Only this number of its bytes is sent.
     Cut(usize),
     /// So many bytes more are sent with it.
     Extended(usize),
-    /// Before it comes a datagram of so many bytes without meaning. The length of whole records is one byte longer.
+    /// Before it comes a datagram of this many bytes without meaning. A length of whole records becomes one byte longer.
     Garbage(usize),
-    /// Before it come so many good records from another sensor.
+    /// Before it come this many valid records from another sensor.
     Foreign(u64),
 }

@@ -1,4 +1,4 @@
-//! What a fake sensor sends.
+//! The records that a fake sensor sends.
 
 use super::account::Shared;
 use super::pace::Pace;
@@ -11,7 +11,7 @@ use std::sync::atomic::Ordering;
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How soon it notices that it is to end, or started anew.
+/// How soon it notices that it is to end, or restarted.
 const TICK: Duration = Duration::from_millis(20);
 
 /// The stream of records, on the way to whoever started it.
@@ -135,7 +135,7 @@ impl<'a> Stream<'a> {
         }
     }
 
-    /// What is to happen at the next record.
+    /// The faults at the next record.
     fn go_wrong(&mut self, fault: RdtFault, client: SocketAddr) {
         match fault {
             RdtFault::Drop(count) => self.to_drop = count,

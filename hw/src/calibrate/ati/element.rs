@@ -53,7 +53,7 @@ impl<'a> Element<'a> {
         self.0.attribute(name).map(str::trim).filter(|value| !value.is_empty())
     }
 
-    /// What is wrong with an attribute.
+    /// A fault of an attribute.
     pub(super) fn wrong(self, attribute: &'static str, expected: impl Into<String>) -> AtiFileError {
         AtiFileError::Attribute {
             line: self.line(),

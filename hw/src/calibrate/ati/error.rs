@@ -11,15 +11,15 @@ pub enum AtiFileError {
     /// In this file.
     #[error("{}: {error}", .file.display())]
     In {
-        /// Which file.
+        /// The file.
         file: PathBuf,
-        /// What is wrong.
+        /// The fault.
         error: Box<Self>,
     },
     /// It cannot be read, or is no text.
     #[error("cannot be read: {message}")]
     Unreadable {
-        /// What the system says.
+        /// The message of the operating system.
         message: String,
     },
     /// It is no XML.
@@ -27,7 +27,7 @@ pub enum AtiFileError {
     Malformed {
         /// Where.
         line: u32,
-        /// What is wrong.
+        /// The fault.
         message: String,
     },
     /// An element is another, or is not there.
@@ -35,9 +35,9 @@ pub enum AtiFileError {
     Element {
         /// Where.
         line: u32,
-        /// What is there.
+        /// The bytes found there.
         found: String,
-        /// What should be.
+        /// The expected text.
         expected: &'static str,
     },
     /// An attribute is missing or no value of its kind.
@@ -48,13 +48,13 @@ pub enum AtiFileError {
     Attribute {
         /// Where.
         line: u32,
-        /// Of which element.
+        /// The element.
         element: String,
         /// Which attribute.
         attribute: &'static str,
         /// Its value, if it is there.
         value: Option<String>,
-        /// What it should be.
+        /// The expected value.
         expected: String,
     },
     /// The numbers are no calibration.
@@ -62,7 +62,7 @@ pub enum AtiFileError {
     Data {
         /// Where the calibration begins.
         line: u32,
-        /// What is wrong with it.
+        /// The fault.
         error: CalibrationDataError,
     },
     /// The two matrices of the file are not the same.
@@ -77,16 +77,16 @@ pub enum AtiFileError {
         component: Component,
         /// Which column, from 1.
         gauge: usize,
-        /// What it says.
+        /// The value in the file.
         found: f64,
-        /// What the rest of the file makes of it.
+        /// The value that follows from the rest of the file.
         expected: f64,
     },
     /// There are several calibrations, or none of this part number.
     #[error("the file has calibrations of the part numbers {found}, expected {}", .part.as_ref().map_or(
         "one of them by its part number".to_owned(), |part| format!("`{part}`")))]
     Part {
-        /// Which one was asked for.
+        /// The requested part number.
         part: Option<String>,
         /// Which ones there are.
         found: String,
@@ -96,7 +96,7 @@ pub enum AtiFileError {
     Gauges {
         /// How many it has.
         found: usize,
-        /// How many were asked for.
+        /// The requested number.
         expected: usize,
     },
 }

@@ -35,14 +35,14 @@ use std::path::Path;
 pub struct AtiFile {
     /// Serial number of the sensor: the file is for no other.
     pub serial: String,
-    /// What it is calibrated for.
+    /// Its rated loads.
     pub calibrations: Vec<AtiCalibration>,
 }
 
 /// One calibration of a sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtiCalibration {
-    /// What it is called, as `SI-20-1`.
+    /// Its name, as `SI-20-1`.
     pub part_number: String,
     /// When it was measured, as the file says.
     pub date: String,

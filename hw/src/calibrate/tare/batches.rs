@@ -75,7 +75,7 @@ impl Batches {
     }
 }
 
-/// What the means of batches say of one component.
+/// Statistics of one component over the means of batches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Course {
     /// Standard deviation of the mean of all batches.
@@ -104,7 +104,7 @@ pub(super) struct Change {
 const QUARTILE: f64 = 1.1503;
 
 impl Course {
-    /// Of component `i` of three batches at least.
+    /// Statistics of component `i` over at least three batches.
     pub(super) fn of(batches: &[Batch], i: usize) -> Self {
         let count = batches.len() as f64;
         let values = || batches.iter().map(|b| (b.t, b.values[i]));

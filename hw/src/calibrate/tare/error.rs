@@ -26,16 +26,16 @@ pub enum TareError {
     },
     /// A sample in it does not mean what it says.
     #[error(
-        "the sample at {t} s in the tare window is flagged {quality}; tare anew once the sensor is well and unloaded"
+        "the sample at {t} s in the tare window is flagged {quality}; tare again when the sensor has no fault and no load"
     )]
     Unusable {
         /// Its time, s.
         t: f64,
-        /// What speaks against it.
+        /// The flags that forbid its use.
         quality: Quality,
     },
-    /// The device or the connection started anew within it.
-    #[error("the device started anew at {t} s, within the tare window; tare with samples after that")]
+    /// The device or the connection restarted within it.
+    #[error("the device restarted at {t} s, within the tare window; tare with samples after that")]
     Restarted {
         /// When, s.
         t: f64,
@@ -51,7 +51,7 @@ pub enum TareError {
         value: f64,
     },
     /// Time does not go on.
-    #[error("a sample at {t} s comes after one at {before} s, expected times that grow")]
+    #[error("a sample at {t} s comes after one at {before} s, expected increasing times")]
     Time {
         /// Its time, s.
         t: f64,
@@ -90,7 +90,7 @@ pub enum TareError {
         /// The largest change accepted.
         limit: f64,
     },
-    /// The zero is not known well enough to say whether it moves.
+    /// The standard deviation of the zero is too large to detect a drift.
     #[error(
         "the zero of {component} has a standard deviation of {sigma:.1e} {si}, more than the change of {limit:.1e} that the \
          window is to be free of; let it run longer, or accept a larger change", si = .component.si()
@@ -110,7 +110,7 @@ pub enum TareError {
         field: &'static str,
         /// Its value.
         value: f64,
-        /// What it should be.
+        /// The expected value.
         expected: &'static str,
     },
 }

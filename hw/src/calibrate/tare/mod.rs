@@ -43,7 +43,7 @@ impl<T: Number> Tare<T> {
     /// The sample without the zero, in the order of time. Where bounds of systematic errors are known, three standard
     /// deviations of the zero are added to them; where they are not, they stay so.
     ///
-    /// A sample that is the first one after the device or the connection started anew, and came later than the first one
+    /// A sample that is the first one after the device or the connection restarted, and came later than the first one
     /// of the zero, makes the tare stale: it and all after it are flagged [`Quality::TARE_STALE`], until there is a new
     /// tare.
     pub fn apply(&mut self, sample: &WrenchSample<T>) -> WrenchSample<T> {

@@ -64,7 +64,7 @@ impl<T: Number> TareWindow<T> {
     /// Takes a sample. After an error the window is spoilt: begin a new one.
     ///
     /// # Errors
-    /// [`TareError`] where the sample is not usable ([`Quality::is_usable`]) or not finite, the device started anew after
+    /// [`TareError`] where the sample is not usable ([`Quality::is_usable`]) or not finite, the device restarted after
     /// the first one, or its time is not after that of the one before.
     pub fn push(&mut self, sample: &WrenchSample<T>) -> Result<(), TareError> {
         let result = self.fault.map_or_else(|| self.check(sample), Err);
@@ -157,7 +157,7 @@ impl<T: Number> TareWindow<T> {
 
 const POSITIVE: &str = "a positive number";
 
-/// What a tare window must be like to give a zero.
+/// The conditions that a tare window must fulfil.
 ///
 /// ```
 /// use rod_hw::{TareLimits, Wrench};

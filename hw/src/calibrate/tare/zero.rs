@@ -1,9 +1,9 @@
-//! What a sensor reads without load.
+//! The reading of a sensor without load.
 
 use super::TareError;
 use crate::sample::{Component, Number, Wrench};
 
-/// What a sensor reads without load, and how well that is known.
+/// The reading of a sensor without load, with its standard deviation.
 ///
 /// ```
 /// use rod_hw::{Wrench, Zero};

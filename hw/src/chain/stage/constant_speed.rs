@@ -31,7 +31,7 @@ pub struct Velocity {
     pub x: f64,
     /// Along y, m/s.
     pub y: f64,
-    /// Of the clamp angle, rad/s.
+    /// Rate of the clamp angle, rad/s.
     pub phi: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Where the clamp is at a time.
+//! The pose of the clamp at a time.
 
 mod constant_speed;
 #[cfg(feature = "std")]
@@ -36,7 +36,7 @@ pub enum StageError {
         "the stage is known from {from} s to {to} s, expected to cover the sample at {t} s; record the stage longer, or shift its clock"
     )]
     Outside {
-        /// The time asked for, s.
+        /// The requested time, s.
         t: f64,
         /// The first time known, s.
         from: f64,
@@ -46,7 +46,7 @@ pub enum StageError {
     /// The time, or the pose there, is no number.
     #[error("the pose at {t} s is not finite, expected finite numbers of m, m and rad")]
     NotFinite {
-        /// The time asked for, s.
+        /// The requested time, s.
         t: f64,
     },
     /// A motion that arrives before it leaves.
@@ -68,7 +68,7 @@ pub enum StageError {
     RowNotFinite {
         /// Which row, from 1.
         row: usize,
-        /// What it is.
+        /// Its description.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -80,10 +80,10 @@ pub enum StageError {
         row: usize,
         /// Its time, s.
         t: f64,
-        /// That of the row before, s.
+        /// The time of the row before, s.
         before: f64,
     },
-    /// An angle that starts anew at a whole turn.
+    /// An angle that jumps by a whole turn.
     #[error(
         "row {row}: the angle jumps by {jump} rad, expected less than half a turn from row to row; take out the whole turns"
     )]

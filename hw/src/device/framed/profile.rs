@@ -1,9 +1,9 @@
-//! What an author of a framed device implements.
+//! The traits that the author of a framed device implements.
 
 use crate::link::{FrameFault, Request};
 use crate::sample::{Channels, Quality};
 
-/// Where frames begin and end, and whether they are whole.
+/// The framing: beginning, end and check of frames.
 ///
 /// For authors, the contract:
 /// 1. [`head`](Self::head) decides by the first bytes alone: what it said of some bytes it says of all that begin with them,
@@ -21,7 +21,7 @@ pub trait Framing {
     fn check(&self, frame: &[u8]) -> Result<(), FrameFault>;
 }
 
-/// What the beginning of a frame tells.
+/// The result of reading the beginning of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Head {
     /// No frame begins here.
@@ -59,7 +59,7 @@ pub enum Head {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Profile: Framing {
-    /// What a frame says that passed its check.
+    /// The content of a frame that passed its check.
     fn content(&self, frame: &[u8]) -> Content;
 
     /// The requests that set the device up and start it, from step 0 on; none after the last one, or where it sends by
@@ -69,7 +69,7 @@ pub trait Profile: Framing {
         None
     }
 
-    /// What stops it.
+    /// The request that stops it.
     fn farewell(&self) -> Option<Request> {
         None
     }
@@ -80,25 +80,25 @@ pub trait Profile: Framing {
     }
 }
 
-/// What a frame says.
+/// The content of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Content {
     /// A sample.
     Sample(Reading),
-    /// The device did what it was asked to.
+    /// The device confirms a request.
     Answer,
     /// It did not, for the reason of this code.
     Refusal(u8),
 }
 
-/// What a device measured, and what it says of it.
+/// A measurement of a device with its status.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reading {
     /// The values, in the order and unit of the device.
     pub channels: Channels,
     /// Status word as sent.
     pub status: u32,
-    /// What the status says.
+    /// The flags of its status.
     pub quality: Quality,
     /// Temperature, degrees Celsius.
     pub temperature: Option<f64>,
@@ -118,21 +118,21 @@ impl Reading {
 /// A request, and what shows that it was heard.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SetupStep {
-    /// What to send.
+    /// The request.
     pub request: Request,
     /// Its command, for messages.
     pub command: u8,
-    /// What to wait for before the next step. Sent again where it does not come.
+    /// The event before the next step. The request is repeated if the event does not come.
     pub until: Await,
 }
 
-/// What to wait for.
+/// The event that ends a wait.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Await {
     /// An answer.
     Answer,
     /// A sample.
     Sample,
-    /// That so many seconds pass.
+    /// This time, s.
     Pause(f64),
 }

@@ -36,7 +36,7 @@ pub struct Framed<P> {
     scanner: Scanner,
     setup: Setup,
     sequence: Option<Sequence>,
-    /// What to add to the numbers of the counter, which may begin anew.
+    /// Offset that is added to the counter, which may restart.
     base: u64,
     number: Option<u64>,
     clock: Clock,
@@ -104,7 +104,7 @@ impl<P: Profile> Framed<P> {
         self.scanner.held()
     }
 
-    /// What waits for this is done.
+    /// Ends a wait for this event.
     fn came(&mut self, what: Await, now: f64) {
         if let Setup::Sent { step, .. } = self.setup
             && self.profile.setup(step).is_some_and(|sent| sent.until == what)

@@ -27,7 +27,7 @@ pub struct Scanner {
     to: usize,
     /// The frame that was handed out last, to be forgotten.
     out: usize,
-    /// What is left of the last damaged frame. What begins within, and is damaged too, is its payload, most likely.
+    /// The remaining length of the last damaged frame. A damaged frame that begins within it is most likely its payload.
     damaged: usize,
     skipped: u64,
 }
@@ -39,9 +39,9 @@ impl Default for Scanner {
 }
 
 impl Scanner {
-    /// Consumes bytes from the front, up to the next frame or damaged frame; none where they do not suffice.
+    /// Consumes bytes from the front, up to the next frame or damaged frame; `None` if they do not suffice.
     ///
-    /// A damaged frame is told once: others that begin within its length, and are not good, are taken for its payload.
+    /// A damaged frame is reported once: other damaged frames that begin within its length are taken for its payload.
     pub fn next(&mut self, bytes: &mut &[u8], framing: &impl Framing) -> Option<Result<&[u8], FrameFault>> {
         self.from += core::mem::take(&mut self.out);
         loop {

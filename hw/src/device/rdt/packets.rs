@@ -65,9 +65,9 @@ impl From<[i32; 6]> for RdtRecord {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RdtRequest {
-    /// Send no more.
+    /// Stop sending.
     Stop,
-    /// Send so many records, one a datagram; 0 means until stopped.
+    /// Send this number of records, one a datagram; 0 means until stopped.
     Start {
         /// How many.
         count: u32,
@@ -90,7 +90,7 @@ impl RdtRequest {
         [0x12, 0x34, c, d, e, f, g, h]
     }
 
-    /// What these bytes ask; none where they ask nothing that is known.
+    /// The request in these bytes; `None` if it is unknown.
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
         let &[0x12, 0x34, c, d, e, f, g, h] = bytes else { return None };
         let count = u32::from_be_bytes([e, f, g, h]);

@@ -2,7 +2,7 @@
 
 use crate::sample::Quality;
 
-/// Which family a sensor is of: the same records, another status word.
+/// The family of a sensor: all have the same records, but different status words.
 ///
 /// ```
 /// use rod_hw::{Quality, device::rdt::RdtProfile};

@@ -43,9 +43,9 @@ impl RdtSettings {
 /// Two counters tell more than one: each start makes `rdt_sequence` begin at 1 again, `ft_sequence` goes on. So
 /// - a record of the same sample as the one before is a repetition, whatever the number of its packet;
 /// - an earlier packet with a later sample is the answer to one more start, and nothing is lost;
-/// - an earlier sample is late, or the device started anew: two in a row that follow each other, not among the last 256
+/// - an earlier sample is late, or the device restarted: two in a row that follow each other, not among the last 256
 ///   packets, are a restart. The first of them is left out;
-/// - after a silence, or where the connection is made anew, the first sample is [`Quality::RESTARTED`], unless the clock of the
+/// - after a silence, or where the connection is re-established, the first sample is [`Quality::RESTARTED`], unless the clock of the
 ///   device went on with that of the host (`clock_rate`): without power it has lost its zero.
 ///
 /// ```
@@ -71,7 +71,7 @@ pub struct Rdt {
     samples: Sequence,
     /// How far the sample goes from packet to packet.
     stride: Option<i64>,
-    /// A record that the device may have started anew with.
+    /// A record that the device may have restarted with.
     candidate: Option<RdtRecord>,
     /// For the next sample.
     flags: Quality,
@@ -90,9 +90,9 @@ enum Stream {
     Running { quiet: Option<f64> },
 }
 
-/// What the numbers of a record say.
+/// The meaning of the counters of a record.
 enum Verdict {
-    /// To be handed on; so many are missing before it, and whether the device began anew.
+    /// To be handed on; so many are missing before it, and whether the device restarted.
     Take {
         lost: i64,
         restarted: bool,
@@ -136,7 +136,7 @@ impl Rdt {
         ahead > 0 && elapsed < wraps && (ahead as f64 / rate - elapsed).abs() < 0.05 + 0.01 * elapsed
     }
 
-    /// What the numbers of a record say.
+    /// The meaning of the counters of a record.
     fn judge(&mut self, record: &RdtRecord, now: f64) -> Verdict {
         let candidate = self.candidate.take();
         let waiting = matches!(self.stream, Stream::Waiting { .. });

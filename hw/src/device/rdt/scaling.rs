@@ -43,27 +43,27 @@ pub enum RdtError {
          right?"
     )]
     Connect {
-        /// What was asked for.
+        /// The requested address.
         host: String,
-        /// Why.
+        /// The reason.
         cause: Error,
     },
     /// The answer did not come, or ended early.
     #[error("{found} of 24 bytes with the scaling came from `{host}` ({cause}); is this port the one for TCP (49151)?")]
     Answer {
-        /// Whom it was asked.
+        /// The host that was asked.
         host: String,
         /// How many bytes came.
         found: usize,
-        /// Why there are no more.
+        /// Why no more bytes arrived.
         cause: Error,
     },
-    /// The answer is of something else.
+    /// The answer is not a scaling.
     #[error(
         "the scaling has {length} bytes and begins with {header:#06x}, expected 24 and 0x1234; is this the right port?"
     )]
     Header {
-        /// Its first two bytes, 0 where there are none.
+        /// Its first two bytes, or 0 if there are none.
         header: u16,
         /// How many bytes it has.
         length: usize,
@@ -71,7 +71,7 @@ pub enum RdtError {
     /// No unit is set.
     #[error("the sensor sends counts without a unit of {dimension} (code 0); set N and N m on its web page")]
     NoUnit {
-        /// Of what.
+        /// The quantity, force or torque.
         dimension: Dimension,
     },
     /// A unit of unknown code.
@@ -80,7 +80,7 @@ pub enum RdtError {
          N mm, kgf cm, kN m)"
     )]
     UnitCode {
-        /// Of what.
+        /// The quantity, force or torque.
         dimension: Dimension,
         /// Its code.
         code: u8,
@@ -88,7 +88,7 @@ pub enum RdtError {
     /// Counts per unit that cannot be.
     #[error("{counts} counts per unit of {dimension}, expected more than 0; set the scaling on the sensor's web page")]
     Counts {
-        /// Of what.
+        /// The quantity, force or torque.
         dimension: Dimension,
         /// How many.
         counts: f64,
@@ -98,14 +98,14 @@ pub enum RdtError {
 const FORCE: [&str; 6] = ["lbf", "N", "klbf", "kN", "kgf", "gf"];
 const TORQUE: [&str; 6] = ["lbf in", "lbf ft", "N m", "N mm", "kgf cm", "kN m"];
 
-/// What its 16-bit readings over TCP, which nothing here asks for, are to be multiplied by.
+/// Factor of its 16-bit readings over TCP, which this crate does not use.
 const READINGS: [[u8; 2]; 6] = [[0, 1]; 6];
 
 /// How long the answer is.
 const ANSWER: usize = 24;
 
 impl RdtScaling {
-    /// That of the answer to the request for calibration info over TCP (command 1), 24 bytes.
+    /// The scaling in the answer to the request for calibration info over TCP (command 1), 24 bytes.
     ///
     /// # Errors
     /// [`RdtError`].

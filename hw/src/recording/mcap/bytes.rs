@@ -15,7 +15,7 @@ pub(super) struct Cursor<'a> {
     order: Order,
 }
 
-/// Where the bytes end too early.
+/// If the bytes end too early.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End(pub usize);
 

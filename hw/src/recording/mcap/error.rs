@@ -1,4 +1,4 @@
-//! What can be wrong with an MCAP file and its messages.
+//! Errors of MCAP files and their messages.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ pub enum McapError {
     Io {
         /// Which one.
         path: std::path::PathBuf,
-        /// What the system says.
+        /// The message of the operating system.
         source: std::io::Error,
     },
     /// Not an MCAP file.
@@ -23,11 +23,11 @@ pub enum McapError {
     /// No such topic.
     #[error("no topic `{topic}`; there are {}{}", List(.present), Because(.fault))]
     NoTopic {
-        /// The topic asked for.
+        /// The requested topic.
         topic: String,
         /// Those there are.
         present: Vec<McapTopic>,
-        /// Where the file could not be read to its end, why.
+        /// The reason, if the file could not be read to its end.
         fault: Option<Box<McapFault>>,
     },
     /// A topic of another type.
@@ -49,7 +49,7 @@ pub enum McapError {
         topic: String,
         /// When it was logged, ns since 1970.
         log_time: u64,
-        /// What is wrong with it.
+        /// The fault.
         what: McapFault,
     },
     /// The file could not be read to its end; what came before is complete.
@@ -62,16 +62,16 @@ pub enum McapError {
 #[non_exhaustive]
 pub enum McapFault {
     /// It breaks off.
-    #[error("the file ends at byte {end}, within the record at byte {at}; what is complete was read")]
+    #[error("the file ends at byte {end}, within the record at byte {at}; the complete records were read")]
     Truncated {
-        /// Where the record begins.
+        /// Byte at which the record begins.
         at: usize,
         /// Length of the file.
         end: usize,
     },
     /// It ends without the record that ends a file.
     #[error(
-        "the file ends at byte {end} without a footer: the program that wrote it broke off; what is there was read"
+        "the file ends at byte {end} without a footer: the program that wrote it was interrupted; the data up to there were read"
     )]
     Unfinished {
         /// Length of the file.
@@ -82,19 +82,19 @@ pub enum McapFault {
         "the chunk at byte {at} is compressed with `{format}`, expected one of: {known}; nothing was read from there on"
     )]
     Compression {
-        /// Where the chunk begins.
+        /// Byte at which the chunk begins.
         at: usize,
         /// How it is compressed.
         format: String,
-        /// What can be read.
+        /// The known compressions.
         known: &'static str,
     },
     /// A record that is not understood.
     #[error("the record at byte {at}: {what}; nothing was read from there on")]
     Record {
-        /// Where it begins; the chunk, for a record in a chunk.
+        /// Byte at which it begins; that of the chunk for a record in a chunk.
         at: usize,
-        /// What is wrong.
+        /// The fault.
         what: String,
     },
     /// Its first two bytes.
@@ -105,7 +105,7 @@ pub enum McapFault {
     End {
         /// How many bytes it has.
         end: usize,
-        /// Where the value begins.
+        /// Byte at which the value begins.
         at: usize,
     },
     /// It is too long.
@@ -134,7 +134,7 @@ pub struct McapTopic {
     pub messages: usize,
 }
 
-/// What follows an error where the file is incomplete.
+/// The addition to an error message if the file is incomplete.
 struct Because<'a>(&'a Option<Box<McapFault>>);
 
 impl core::fmt::Display for Because<'_> {

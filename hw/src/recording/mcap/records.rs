@@ -8,7 +8,7 @@ use mcap::records::{MessageHeader, op};
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use std::borrow::Cow;
 
-/// What is of interest in a file.
+/// The records of a file that matter here.
 pub(super) enum Event<'a> {
     Schema { id: u16, name: String },
     Channel { id: u16, schema: u16, topic: String, encoding: String },
@@ -33,7 +33,7 @@ const KNOWN: &str = if cfg!(feature = "mcap-compression") {
     "none (`lz4` and `zstd` with the feature `mcap-compression`)"
 };
 
-/// Of the records in a chunk.
+/// Place of the records in a chunk.
 const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 /// Events in order; a fault is the last one.
@@ -187,7 +187,7 @@ fn chunk<'a>(at: usize, record: &'a [u8], cut: Option<McapFault>) -> Result<Even
     Ok(compressed(at, record, header.compression, cut))
 }
 
-/// What the header of a chunk says.
+/// The header of a chunk.
 struct Chunk {
     compression: String,
     /// Of the records where they are not compressed; 0 where it is not known.
@@ -235,7 +235,7 @@ fn plain<'a>(at: usize, data: &'a [u8], crc: u32, mut cut: Option<McapFault>) ->
     }))
 }
 
-/// What is wrong at the end of the records of a chunk.
+/// The fault at the end of the records of a chunk.
 fn end_of_records(at: usize, rest: &[u8], data: &[u8], saved: u32) -> Option<McapFault> {
     let calculated = CRC.checksum(data);
     if !rest.is_empty() {

@@ -50,7 +50,7 @@ impl ColumnMap {
         self
     }
 
-    /// What was said: meanings with the names of their columns.
+    /// The given meanings with the names of their columns.
     pub fn assigned(&self) -> impl Iterator<Item = (Role, &str)> {
         self.assigned.iter().map(|(role, name)| (*role, name.as_str()))
     }
@@ -152,7 +152,7 @@ fn by_names(table: &Table, role: Role) -> Result<Option<Candidate<'_>>, TableErr
     Ok(None)
 }
 
-/// The unit of a column that goes by one of these names, if it has one; none where it goes by another name.
+/// The unit of a column that goes by one of these names, if it has one; `None` if it goes by another name.
 fn unit_under<'c>(column: &'c Column, names: &[&str], role: Role) -> Option<Option<&'c str>> {
     names.iter().find_map(|name| {
         let rest = column.name.strip_prefix(name)?;
@@ -164,7 +164,7 @@ fn unit_under<'c>(column: &'c Column, names: &[&str], role: Role) -> Option<Opti
     })
 }
 
-/// The role that a column is found by, and its unit if it has one, without a word in a map.
+/// The role that a column is found by, and its unit if it has one, silently in a map.
 pub(super) fn recognized(column: &Column) -> Option<(Role, Option<&str>)> {
     let under = |names: fn(Role) -> &'static [&'static str]| {
         Role::all().find_map(|role| unit_under(column, names(role), role).map(|unit| (role, unit)))
@@ -173,7 +173,7 @@ pub(super) fn recognized(column: &Column) -> Option<(Role, Option<&str>)> {
     own.or_else(|| under(Role::aliases))
 }
 
-/// The column with the factor of its unit; none where it is better left out.
+/// The column with the factor of its unit; `None` if it is better left out.
 fn place(table: &Table, role: Role, candidate: Candidate<'_>, strict: bool) -> Result<Option<Place>, TableError> {
     let (at, unit) = candidate;
     let Some(dimension) = role.dimension() else {
@@ -195,7 +195,7 @@ fn place(table: &Table, role: Role, candidate: Candidate<'_>, strict: bool) -> R
     }
 }
 
-/// What one of a unit is in SI: negative where a minus before it turns the sign of the column, as `-mN` does.
+/// Factor of a unit to SI: negative if a minus before the unit reverses the sign of the column, as in `-mN`.
 fn signed(unit: &str, dimension: Dimension) -> Result<f64, UnitError> {
     match unit.strip_prefix('-') {
         Some(turned) => Unit::parse(turned, dimension).map(|unit| -unit.factor),
@@ -211,7 +211,7 @@ pub(super) fn is_channel(name: &str) -> bool {
     })
 }
 
-/// What may have been meant by the names that were found.
+/// A suggestion from the names that were found.
 fn hint(table: &Table, missing: &[Role]) -> String {
     let mut hint = String::new();
     for role in missing {

@@ -50,7 +50,7 @@ impl Columns {
         table.columns().iter().zip(used).filter(|(_, used)| !used).map(|(column, _)| column.heading.as_str())
     }
 
-    /// The value in SI units; none where there is no such column, or nothing in it.
+    /// The value in SI units; `None` if there is no such column, or nothing in it.
     ///
     /// # Errors
     /// [`RowProblem`]: the row has a wrong number of cells, or there is something else than a finite number, or a negative one
@@ -118,7 +118,7 @@ impl Columns {
         }
     }
 
-    /// Flags; none where there is no such column or nothing in it.
+    /// Flags; `None` if there is no such column or nothing in it.
     ///
     /// # Errors
     /// [`RowProblem::NoFlag`], or a wrong number of cells.

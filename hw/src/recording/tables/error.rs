@@ -8,11 +8,11 @@ use std::fmt;
 /// Why a file is no table, or a table without the columns that are needed. Displays as `file:line: problem`.
 #[derive(Debug)]
 pub struct TableError {
-    /// Which file.
+    /// The file.
     pub file: String,
     /// Its line, from 1, where one is to blame: mostly that of the names.
     pub line: Option<u64>,
-    /// What is wrong.
+    /// The fault.
     pub problem: TableProblem,
 }
 
@@ -29,7 +29,7 @@ impl fmt::Display for TableError {
 
 impl std::error::Error for TableError {}
 
-/// What is wrong with a table.
+/// A fault of a table.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableProblem {
@@ -39,7 +39,7 @@ pub enum TableProblem {
     /// The file is longer than allowed.
     #[error("longer than {most} bytes, expected no more; cut it, or allow more in the options")]
     TooLong {
-        /// What is allowed.
+        /// The limit.
         most: u64,
     },
     /// There is nothing in it.
@@ -50,10 +50,10 @@ pub enum TableProblem {
         "the first line holds numbers, expected the names of the columns above them; add such a line, or give the names in the options"
     )]
     NoHeader,
-    /// The line asked for is not there.
+    /// The requested line does not exist.
     #[error("no line {line} with names of columns, expected one as the options say; the file has {lines} lines")]
     NoSuchLine {
-        /// The line asked for.
+        /// The requested line.
         line: u64,
         /// How many there are.
         lines: u64,
@@ -65,9 +65,9 @@ pub enum TableProblem {
         names: usize,
         /// How many cells most rows have.
         cells: usize,
-        /// What is between them.
+        /// The separator.
         delimiter: Delimiter,
-        /// What to do.
+        /// The remedy.
         remedy: String,
     },
     /// Commas between numbers or in them.
@@ -105,9 +105,9 @@ pub enum TableProblem {
     /// Something is wrong with the headers of an LVM file.
     #[error("{what}, expected {expected}")]
     Lvm {
-        /// What.
+        /// The fault.
         what: String,
-        /// What is expected there.
+        /// The expected text.
         expected: &'static str,
     },
     /// Several tables in one file.
@@ -121,7 +121,7 @@ pub enum TableProblem {
         "the workbook cannot be read: {what}; expected a sheet of names and numbers (.xlsx), or save the sheet as CSV"
     )]
     Workbook {
-        /// Why.
+        /// The reason.
         what: String,
     },
     /// Several sheets with a table.
@@ -136,7 +136,7 @@ pub enum TableProblem {
     /// A segment of a table that has none.
     #[error("the option `segment` is {segment}, but only LVM files have segments; leave it out")]
     NoSegments {
-        /// Which one was asked for.
+        /// The requested part number.
         segment: usize,
     },
     /// A unit for a column that is not there.
@@ -154,7 +154,7 @@ pub enum TableProblem {
         missing: Vec<Role>,
         /// All columns there are.
         found: String,
-        /// What may have been meant, or nothing.
+        /// A suggestion, or nothing.
         hint: String,
     },
     /// No column of a name that was said.
@@ -176,22 +176,22 @@ pub enum TableProblem {
         /// Name of the second.
         other: String,
     },
-    /// A unit that is none, or of something else.
+    /// An unknown unit, or one of another dimension.
     #[error("the unit of {column}: {source}")]
     Unit {
         /// Which column.
         column: String,
-        /// What is wrong with it.
+        /// The fault.
         source: Box<UnitError>,
     },
     /// No unit.
-    #[error("no unit of {column}, expected one of {dimension}, as in `{column} [{}]`; write it there, or give it in the options; only a column named {role} is in {} without a word", si(*.dimension), si(*.dimension))]
+    #[error("no unit of {column}, expected one of {dimension}, as in `{column} [{}]`; write it there, or give it in the options; only a column named {role} needs no unit, it is in {}", si(*.dimension), si(*.dimension))]
     NoUnit {
         /// Which column.
         column: String,
-        /// What it means.
+        /// Its meaning.
         role: Role,
-        /// What it is measured in.
+        /// Its physical dimension.
         dimension: Dimension,
     },
     /// No raw values.

@@ -7,7 +7,7 @@ use std::fmt;
 pub struct RowFault {
     /// Its line in the file, from 1.
     pub line: u64,
-    /// What is wrong.
+    /// The fault.
     pub problem: RowProblem,
 }
 
@@ -19,7 +19,7 @@ impl fmt::Display for RowFault {
 
 impl std::error::Error for RowFault {}
 
-/// What is wrong with a row.
+/// A fault of a row.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RowProblem {
@@ -44,10 +44,10 @@ pub enum RowProblem {
     NoNumber {
         /// Name of its column.
         column: String,
-        /// What is written there, cut where it is long.
+        /// The text, shortened if it is long.
         text: String,
     },
-    /// A number that is none.
+    /// A number that is not finite.
     #[error("{column} is {value}, expected a finite number")]
     NotFinite {
         /// Name of its column.
@@ -55,7 +55,7 @@ pub enum RowProblem {
         /// Its value.
         value: f64,
     },
-    /// A standard deviation or bound that is none.
+    /// A negative standard deviation or bound.
     #[error("{column} is {value}, expected a number that is not negative")]
     Negative {
         /// Name of its column.
@@ -63,7 +63,7 @@ pub enum RowProblem {
         /// Its value.
         value: f64,
     },
-    /// A number or status word that is none.
+    /// A text that is not a number or status word.
     #[error("{column} is {value}, expected a whole number from 0 to {most}")]
     NoCount {
         /// Name of its column.
@@ -78,11 +78,11 @@ pub enum RowProblem {
     NoFlag {
         /// Name of its column.
         column: String,
-        /// What is written there, cut where it is long.
+        /// The text, shortened if it is long.
         text: String,
     },
     /// The time does not grow.
-    #[error("the time {t} s is not later than {before} s of line {of}, expected a time that grows")]
+    #[error("the time {t} s is not later than {before} s of line {of}, expected a later time")]
     Late {
         /// The time, s.
         t: f64,

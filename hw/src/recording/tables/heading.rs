@@ -5,7 +5,7 @@ use crate::sample::Unit;
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// What stands above it.
+    /// The name above the column.
     pub heading: String,
     /// The same without the unit.
     pub name: String,

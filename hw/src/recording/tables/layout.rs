@@ -167,9 +167,9 @@ impl Layout {
         let line = self.header.unwrap_or(misfit.line);
         let remedy = match self.headings.iter().find(|name| cells > names && parted(name).is_some()) {
             Some(two) => {
-                format!("a delimiter is missing in `{two}`; mend line {line}, or give the names in the options")
+                format!("a delimiter is missing in `{two}`; correct line {line}, or give the names in the options")
             }
-            None => format!("mend line {line}, or give the names or the delimiter in the options"),
+            None => format!("correct line {line}, or give the names or the delimiter in the options"),
         };
         Err(TableProblem::HeaderWidth { names, cells, delimiter: self.delimiter, remedy }.at(file, line))
     }

@@ -30,7 +30,7 @@ struct Format {
     notes: Arc<[Note]>,
 }
 
-/// What the header of a segment says of its channels.
+/// The channels in the header of a segment.
 #[derive(Default)]
 struct Segment {
     units: Vec<String>,

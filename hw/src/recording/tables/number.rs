@@ -2,11 +2,11 @@
 
 use super::options::Decimal;
 
-/// What other programs write for a number that is none.
+/// The spellings of missing numbers by other programs.
 const NOT_A_NUMBER: [&str; 12] =
     ["NA", "N/A", "n/a", "#N/A", "#NUM!", "null", "NULL", "None", "-nan(ind)", "1.#QNAN", "1.#IND", "-1.#IND"];
 
-/// The number, NaN and infinities included; none where the text is something else.
+/// The number, NaN and infinities included; `None` if the text is something else.
 pub(super) fn number(text: &str, decimal: Decimal) -> Option<f64> {
     let parsed = match decimal {
         Decimal::Point => text.parse().ok(),

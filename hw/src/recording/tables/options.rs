@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// What separates the cells of a row.
+/// The separator of the cells of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delimiter {
     /// `,`
@@ -62,7 +62,7 @@ pub enum Header {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableOptions {
-    /// What separates cells.
+    /// The separator of cells.
     pub delimiter: Option<Delimiter>,
     /// The decimal mark.
     pub decimal: Option<Decimal>,

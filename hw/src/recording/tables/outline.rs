@@ -43,7 +43,7 @@ pub struct Part {
 pub struct Outline {
     /// The format.
     pub format: FileFormat,
-    /// What separates the cells; not of a workbook and an LVM file, which say it themselves.
+    /// The separator of the cells; absent for a workbook and an LVM file, which state it.
     pub delimiter: Delimiter,
     /// The mark before fractions.
     pub decimal: Decimal,

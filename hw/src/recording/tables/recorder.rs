@@ -57,7 +57,7 @@ pub struct Recorder<W> {
     flagged: u64,
 }
 
-/// What the first line says.
+/// The first line.
 const TITLE: &str = "# vibrissa recording 1";
 /// The key of the last line.
 const END: &str = "end of the recording, samples";
@@ -66,7 +66,7 @@ impl<W: Write> Recorder<W> {
     /// Writes what stands in front: notes, each a name and a text (the sensor, its calibration, the tare, ...), then the columns.
     ///
     /// # Errors
-    /// Where that cannot be written.
+    /// If that cannot be written.
     pub fn new(mut out: W, notes: &[(&str, &str)], contents: Contents) -> io::Result<Self> {
         let roles = roles(&contents);
         let channels = contents.raw;
@@ -85,7 +85,7 @@ impl<W: Write> Recorder<W> {
     /// Writes a sample. What its contents do not tell of is left out.
     ///
     /// # Errors
-    /// Where it cannot be written, or has another number of channels than the contents say; then nothing is written of it.
+    /// If it cannot be written, or has another number of channels than the contents say; then nothing is written of it.
     pub fn write(&mut self, sample: &ReactionSample) -> io::Result<()> {
         let raw = &sample.raw;
         if let Some(expected) = self.channels.filter(|expected| *expected != raw.channels.len()) {
@@ -124,7 +124,7 @@ impl<W: Write> Recorder<W> {
     /// a recording is as readable, but does not tell that it is whole.
     ///
     /// # Errors
-    /// Where that cannot be written.
+    /// If that cannot be written.
     pub fn finish(mut self, counters: Option<&LinkCounters>) -> io::Result<W> {
         if let Some(counters) = counters {
             writeln!(self.out, "# link: {counters}")?;

@@ -149,7 +149,7 @@ impl Role {
         ROLES.iter().find(|line| line.1 == name).map(|line| line.0)
     }
 
-    /// What it is measured in; none for numbers and flags.
+    /// Its dimension; `None` for numbers and flags.
     pub fn dimension(self) -> Option<Dimension> {
         ROLES[self as usize].2
     }
@@ -159,7 +159,7 @@ impl Role {
         ROLES[self as usize].3
     }
 
-    /// Whether negative values are none.
+    /// Whether negative values are invalid.
     pub(super) fn is_spread(self) -> bool {
         self.name().starts_with("sigma_") || self.name().starts_with("systematic_")
     }

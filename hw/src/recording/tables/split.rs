@@ -49,7 +49,7 @@ pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// What a comment says, if the line is one.
+/// The text of a comment, if the line is one.
 pub(super) fn comment(line: &str) -> Option<&str> {
     if is_plain(line) && !line.starts_with(['#', '%']) {
         return None;

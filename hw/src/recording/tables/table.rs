@@ -40,9 +40,9 @@ pub struct Table {
 /// A line beside the table: `key: value` of a comment or of a header.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Note {
-    /// What it is about; empty where that is not said.
+    /// The subject; empty if it is not given.
     pub key: String,
-    /// What it says.
+    /// The text.
     pub text: String,
 }
 
@@ -52,7 +52,7 @@ impl Note {
     }
 }
 
-/// What stands in one place of a table.
+/// The content of one place of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'t> {
     /// A number, perhaps one that is not finite.
@@ -105,7 +105,7 @@ impl Table {
         }
     }
 
-    /// What the file is called.
+    /// The name of the file.
     pub fn file(&self) -> &str {
         &self.file
     }
@@ -125,7 +125,7 @@ impl Table {
         self.heads.len()
     }
 
-    /// Whether there are none.
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.heads.is_empty()
     }
@@ -140,12 +140,12 @@ impl Table {
         self.common.iter().chain(&self.notes)
     }
 
-    /// What is said of this, the first time that it is.
+    /// The message on this, at its first occurrence.
     pub fn note(&self, key: &str) -> Option<&str> {
         self.notes().find(|note| note.key == key).map(|note| note.text.as_str())
     }
 
-    /// What is wrong with rows of a wrong number of cells.
+    /// The fault of rows with a wrong number of cells.
     pub fn faults(&self) -> impl Iterator<Item = RowFault> {
         self.rows().filter_map(|row| row.check().err().map(|problem| RowFault { line: row.line(), problem }))
     }

@@ -169,7 +169,7 @@ fn what_is_missing_is_told_once_at_the_end() {
     let mut samples = file.rows("m", &["a", "b"], TdmsTime::Waveform).unwrap();
     assert_eq!(samples.next().unwrap().unwrap().values(), [1.0, 1.0]);
     let uneven = samples.next().unwrap().unwrap_err().to_string();
-    assert_eq!(uneven, "channel `b` ends after 1 values, another has 3; the rest of the others is left out");
+    assert_eq!(uneven, "channel `b` ends after 1 values, another has 3; the other channels are cut there");
     let fault = samples.next().unwrap().unwrap_err().to_string();
     assert!(fault.contains("3 bytes are missing"), "{fault}");
     assert!(samples.next().is_none());

@@ -110,7 +110,11 @@ fn bad_files_are_refused_with_line_and_element() {
             "\"mm\"",
             "line 4: `TorqueUnits` of `Calibration` is `mm`, expected a unit: `mm` is a unit of length, ",
         ),
-        ("ForceUnits=\"N\" ", "", "line 4: `ForceUnits` of `Calibration` is missing, expected a unit: `` is no unit"),
+        (
+            "ForceUnits=\"N\" ",
+            "",
+            "line 4: `ForceUnits` of `Calibration` is missing, expected a unit: `` is not a known unit",
+        ),
         (
             "DistUnits=\"mm\"",
             "DistUnits=\"furlong\"",
@@ -129,7 +133,7 @@ fn bad_files_are_refused_with_line_and_element() {
             "Axis Name=\"Tq\"",
             "line 9: `Name` of `Axis` is `Tq`, expected one of Fx, Fy, Fz, Tx, Ty, Tz",
         ),
-        ("Axis Name=\"Ty\"", "Axis Name=\"Tx\"", "line 9: Tx is given twice, expected once at most"),
+        ("Axis Name=\"Ty\"", "Axis Name=\"Tx\"", "line 9: Tx is given twice, expected at most once"),
         ("Dz=\"12.0142\"", "Dz=\"12.1\"", "line 15: `UserAxis` Tx of gauge 1 is "),
         (
             "OutputRange=\"20\"",
@@ -149,7 +153,7 @@ fn bad_files_are_refused_with_line_and_element() {
     let error = parse(|text| text.replace("FTSensor", "netft")).unwrap_err();
     assert_eq!(error, "line 3: the file is of a `netft`, expected `FTSensor`, as in .cal files of ATI");
     let error = parse(|text| text.replace("Calibration", "Other")).unwrap_err();
-    assert_eq!(error, "line 3: `FTSensor` has no `Calibration`, expected one at least");
+    assert_eq!(error, "line 3: `FTSensor` has no `Calibration`, expected at least one");
     let error = AtiFile::parse(&without("Axis Name")).unwrap_err().to_string();
     assert_eq!(error, "line 4: `Calibration` has neither `Axis` nor `UserAxis`, expected rows of a matrix");
     let error = AtiFile::parse(&without("Axis Name=\"Tz")).unwrap_err().to_string();

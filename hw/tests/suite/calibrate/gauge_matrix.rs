@@ -39,12 +39,12 @@ fn what_is_no_matrix_is_refused() {
     rows[5] = [0.33333, 0.66667, 0.0, 0.0, 1.0, 1e-5];
     let error = message(rows);
     assert!(
-        error.contains("is a combination of the other rows: only 8.") && error.contains("at least 1e-4"),
+        error.contains("is a combination of the other rows: only a part of 8.") && error.contains("at least 1e-4"),
         "{error}"
     );
     let two = [(Component::Fx, [1.0]), (Component::Fy, [2.0])];
     let error = GaugeMatrix::<1>::new(&two, WrenchUnits::SI).unwrap_err().to_string();
-    assert_eq!(error, "1 gauges for 2 components, expected as many at least");
+    assert_eq!(error, "1 gauges for 2 components, expected at least as many gauges as components");
     let twice = [(Component::Fx, [1.0, 0.0]), (Component::Fx, [0.0, 2.0])];
     assert_eq!(
         GaugeMatrix::<2>::new(&twice, WrenchUnits::SI),

@@ -26,7 +26,7 @@ fn what_is_no_scale_is_refused() {
     let twice = [Some(Component::Fx), Some(Component::Fx)];
     assert_eq!(
         Scale::<f64>::si().with_channels(&twice).unwrap_err().to_string(),
-        "Fx is given twice, expected once at most"
+        "Fx is given twice, expected at most once"
     );
     assert_eq!(Scale::<f64>::si().with_channels(&[None]), Err(CalibrationDataError::Nothing));
     assert!(Scale::<f64>::si().with_channels(&[None; 17]).is_err());
@@ -40,7 +40,7 @@ fn bad_samples_are_refused() {
     let error = of(&[0.0, 0.0, f64::INFINITY, 0.0, 0.0, 0.0]);
     assert_eq!(error, CalibrationError::NotFinite { channel: 3, value: f64::INFINITY });
     let error = of(&[0.0, 1e300, 0.0, 0.0, 0.0, 0.0]).to_string();
-    assert!(error.starts_with("Fy comes out as inf N"), "{error}");
+    assert!(error.starts_with("Fy is inf N after calibration"), "{error}");
 }
 
 proptest! {

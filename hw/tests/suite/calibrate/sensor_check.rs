@@ -24,8 +24,8 @@ fn the_papers_sensors() {
              calibration of your own, may be better than the class"
         )
     };
-    let torque = "Tz: class 0.1 of +-50 N m is 5.00e-2 N m, 7.91 times E I / L = 6.32e-3 N m: this hides most of what \
-                  the rod gives, expected below 3.2e-4 N m. Is +-50 mN m meant? That would be 7.9e-3 times. Otherwise \
+    let torque = "Tz: class 0.1 of +-50 N m is 5.00e-2 N m, 7.91 times E I / L = 6.32e-3 N m: this hides most of the load of \
+                  the rod, expected below 3.2e-4 N m. Is +-50 mN m meant? That would be 7.9e-3 times. Otherwise \
                   take a sensor of a range of 3.2e-1 N m or less at this class";
     assert_eq!(found(&check(2.0, 50.0)), [(false, class("Fx")), (false, class("Fy")), (true, torque.to_owned())]);
     assert_eq!(found(&check(2.0, 0.05)), [(false, class("Fx")), (false, class("Fy"))]);

@@ -142,7 +142,7 @@ fn a_sample_that_is_not_usable_spoils_the_window() {
         with(|s| s.quality = Quality::SATURATED)
             .starts_with("the sample at 0.1 s in the tare window is flagged saturated")
     );
-    assert!(with(|s| s.quality = Quality::RESTARTED).starts_with("the device started anew at 0.1 s"));
+    assert!(with(|s| s.quality = Quality::RESTARTED).starts_with("the device restarted at 0.1 s"));
     assert!(with(|s| s.wrench.torque[2] = f64::INFINITY).starts_with("Tz at 0.1 s is inf, expected a finite number"));
     assert!(with(|s| s.t = 0.099).starts_with("a sample at 0.099 s comes after one at 0.099 s"));
     assert!(with(|s| s.t = f64::NAN).starts_with("a sample at NaN s"));

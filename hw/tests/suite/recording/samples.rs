@@ -47,13 +47,13 @@ fn units_that_are_missing_or_wrong() {
         &header("Fx"),
         &new,
         &[
-            "f.csv:1: no unit of Fx, expected one of force, as in `Fx [N]`; write it there, or give it in the options; only a column named fx is in N without a word",
+            "f.csv:1: no unit of Fx, expected one of force, as in `Fx [N]`; write it there, or give it in the options; only a column named fx needs no unit, it is in N",
         ],
     );
     refuses::<WrenchSample>(
         &header("Fx [V]"),
         &new,
-        &["f.csv:1: the unit of Fx [V]: `V` is no unit that is known, expected one of force: N, mN"],
+        &["f.csv:1: the unit of Fx [V]: `V` is not a known unit, expected one of force: N, mN"],
     );
     refuses::<WrenchSample>(&header("fx [N m]"), &new, &["`N m` is a unit of torque, expected one of force"]);
     refuses::<WrenchSample>(
@@ -131,8 +131,8 @@ fn faults_and_times_that_do_not_grow() {
             "line 3: status is -1, expected a whole number from 0 to 4294967295",
             "line 4: sequence is 3.5, expected a whole number from 0 to 9007199254740992",
             "line 5: quality is `odd`, expected good, or flags by their names, with | between them",
-            "line 7: the time 4 s is not later than 4 s of line 6, expected a time that grows",
-            "line 8: the time 3.5 s is not later than 4 s of line 6, expected a time that grows",
+            "line 7: the time 4 s is not later than 4 s of line 6, expected a later time",
+            "line 8: the time 3.5 s is not later than 4 s of line 6, expected a later time",
             "line 9: quality is `7`, expected good, or flags by their names, with | between them",
             "line 11: channel1 is empty, expected a number",
         ]

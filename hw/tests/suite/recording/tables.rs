@@ -143,14 +143,18 @@ fn headers_that_do_not_fit() {
         text,
         &default,
         &[
-            "f.csv:1: 5 names, but 6 cells in most rows (commas between them), expected as many; a delimiter is missing in `FzTx`; mend line 1, or give the names in the options",
+            "f.csv:1: 5 names, but 6 cells in most rows (commas between them), expected as many; a delimiter is missing in `FzTx`; correct line 1, or give the names in the options",
         ],
     );
     let names_given = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"].map(String::from).to_vec();
     let options = TableOptions { header: Header::Names(names_given), ..TableOptions::default() };
     let table = Table::parse("f.csv", text.as_bytes(), &options).unwrap();
     assert_eq!((names(&table)[3], table.len(), table.faults().count()), ("Tx", 3, 1));
-    refuses("t,Fx,Fy,Fz\n0,1.5,2\n1,1,2\n", &default, &["f.csv:1: 4 names, but 3 cells", "; mend line 1, or give the"]);
+    refuses(
+        "t,Fx,Fy,Fz\n0,1.5,2\n1,1,2\n",
+        &default,
+        &["f.csv:1: 4 names, but 3 cells", "; correct line 1, or give the"],
+    );
 
     refuses("1,2\n3,4\n", &default, &["f.csv:1: the first line holds numbers, expected the names"]);
     let options = TableOptions { header: Header::None, ..TableOptions::default() };

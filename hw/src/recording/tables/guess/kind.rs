@@ -1,11 +1,11 @@
-//! What a table is of, by the quantities of its columns.
+//! The kind of a table, by the quantities of its columns.
 
 use super::super::role::Role;
 use super::summary::ColumnSummary;
 use super::words::Quantity;
 use super::{Basis, Sureness};
 
-/// What a table is of.
+/// The kind of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableKind {
     /// Forces and moments beside poses of the clamp.

@@ -47,16 +47,16 @@ impl Basis {
     }
 }
 
-/// What a column may mean.
+/// The possible meanings of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnGuess {
     /// Its number, from 0.
     pub column: usize,
-    /// What it is of, if the name or the values say it.
+    /// The quantity, if name or values show it.
     pub quantity: Option<Quantity>,
     /// Its axis: x, y or z.
     pub axis: Option<usize>,
-    /// What it means in a table of this kind.
+    /// The meaning in a table of this kind.
     pub role: Option<Role>,
     /// Why, and how sure that is.
     pub meaning: Basis,
@@ -70,18 +70,18 @@ pub struct ColumnGuess {
     pub is_given: bool,
     /// Whether the readers find the column by its name.
     pub is_recognized: bool,
-    /// Whether they know the unit without a word.
+    /// Whether they know the unit silently.
     pub is_unit_known: bool,
     /// Whether the file or the caller says the unit: the name of the role alone does not.
     pub is_unit_written: bool,
-    /// What its values are like.
+    /// The summary of its values.
     pub values: ColumnSummary,
 }
 
-/// What a table may be of, and what its columns may mean.
+/// The possible kind of a table and meanings of its columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableGuess {
-    /// What it is of.
+    /// Its kind.
     pub kind: TableKind,
     /// Each column, in order.
     pub columns: Vec<ColumnGuess>,
@@ -243,7 +243,7 @@ fn by_names(table: &Table) -> Vec<Named> {
     table.columns().iter().map(of).collect()
 }
 
-/// What a role is of.
+/// The quantity of a role.
 fn quantity_of(role: Role) -> Option<Quantity> {
     use crate::sample::Dimension;
     if role.is_spread() {

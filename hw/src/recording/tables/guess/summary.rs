@@ -1,8 +1,8 @@
-//! What the values of a column are like.
+//! A summary of the values of a column.
 
 use super::super::table::{Cell, Table};
 
-/// What the values of a column are like, in the column's unit.
+/// A summary of the values of a column, in the unit of the column.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ColumnSummary {
     /// How many finite numbers there are.

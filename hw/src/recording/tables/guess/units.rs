@@ -23,7 +23,7 @@ pub(super) struct UnitGuess {
     pub basis: Basis,
 }
 
-/// The unit that values without a written unit suggest; none where they suggest none.
+/// The unit that values without a stated unit suggest; `None` if they suggest no unit.
 pub(super) fn of_values(quantity: Quantity, values: &ColumnSummary) -> UnitGuess {
     let likely = |unit, why: String| UnitGuess { unit: Some(unit), basis: Basis { sureness: Sureness::Likely, why } };
     let open = |why: &str| UnitGuess { unit: None, basis: Basis { sureness: Sureness::Open, why: why.to_owned() } };
@@ -89,6 +89,6 @@ pub(super) fn of_spelling(quantity: Quantity, text: &str) -> Option<(&'static st
         Unit::parse(&lower, dimension).ok().filter(|_| quantity == Quantity::Angle || quantity == Quantity::Time)?;
     Some((
         unit.name,
-        Basis { sureness: Sureness::Likely, why: format!("[{text}] is {} but for its capitals", unit.name) },
+        Basis { sureness: Sureness::Likely, why: format!("[{text}] is {} apart from upper and lower case", unit.name) },
     ))
 }

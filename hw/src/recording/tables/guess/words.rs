@@ -1,8 +1,8 @@
-//! What the name of a column means, in several languages and styles.
+//! Meanings of column names in several languages and styles.
 
 use crate::sample::{Dimension, Unit};
 
-/// What a column is of.
+/// The quantity of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Time.
@@ -26,7 +26,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// What it is measured in.
+    /// Its physical dimension.
     pub fn dimension(self) -> Option<Dimension> {
         match self {
             Self::Time => Some(Dimension::Time),
@@ -166,7 +166,7 @@ pub(super) fn meaning(name: &str) -> Option<Meaning> {
     }
 }
 
-/// Quantity and axis of a word; none where it is not known.
+/// Quantity and axis of a word; `None` if it is not known.
 fn understood(word: &str) -> Option<(Option<Quantity>, Option<usize>)> {
     let digits = word.trim_end_matches(|c: char| c.is_ascii_digit());
     // numbers after a name, as of the clamp in x0
