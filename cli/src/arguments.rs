@@ -6,7 +6,7 @@ use crate::recording_arguments::{Moved, Written};
 use crate::values::{degrees, directory, friction, no_quiet, not_negative, number, positive, seed};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use rod_files::{SensorAddress, Speed, Whisker};
+use rod_files::{SensorAddress, Speed, StageDelay, Whisker};
 use std::path::PathBuf;
 use vibrissa::reconstruct::Friction;
 use vibrissa_cli::{FakeProtocol, FirstScene};
@@ -269,6 +269,9 @@ pub struct Inspect {
     /// The setup of the sensor, a TOML file as for `live`, if there is one
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,
+    /// Delay of the clock of the stage's table, as for `reconstruct`: it is added to the times of the stage
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    pub stage_delay: Option<StageDelay>,
     /// Write the setup file that the command needs, with comments
     #[arg(long, value_name = "FILE", conflicts_with = "setup")]
     pub write_setup: Option<PathBuf>,

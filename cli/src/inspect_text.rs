@@ -58,7 +58,12 @@ fn of_file(file: &InspectedFile) -> String {
         let _ = writeln!(text, "  {:<width$}  {}", fact.what, fact.found);
     }
     if !file.columns.is_empty() {
-        let mut table = Table::new(["column", "meaning", "unit", "least", "most", "noise", "why"]);
+        let has_behaviour = file.columns.iter().any(|column| column.behaviour.is_some());
+        let mut names = vec!["column", "meaning", "unit", "least", "most", "noise", "why"];
+        if has_behaviour {
+            names.insert(6, "values");
+        }
+        let mut table = Table::new(names);
         for column in &file.columns {
             let mark = |certainty: Certainty| match certainty {
                 Certainty::Sure => "",
@@ -81,7 +86,7 @@ fn of_file(file: &InspectedFile) -> String {
                 .map(String::as_str)
                 .filter(|why| is_used && !why.is_empty())
                 .collect();
-            table.row([
+            let mut cells = vec![
                 column.name.clone(),
                 meaning,
                 unit,
@@ -89,7 +94,11 @@ fn of_file(file: &InspectedFile) -> String {
                 number(column.most),
                 number(column.noise),
                 why.join("; "),
-            ]);
+            ];
+            if has_behaviour {
+                cells.insert(6, column.behaviour.clone().unwrap_or_else(|| "-".to_owned()));
+            }
+            table.row(cells);
         }
         text += &table.to_string();
     }

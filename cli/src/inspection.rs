@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use vibrissa_cli::inspection_text;
 
 pub fn inspect(arguments: Inspect) -> Result<ExitCode, Error> {
-    let Inspect { files, rod, setup, write_setup, json, written } = arguments;
+    let Inspect { files, rod, setup, stage_delay, write_setup, json, written } = arguments;
     signals::end();
     let rod = match rod {
         Some(file) => Some(RodInspected { rod: *read_calibrated_rod(&file)?.rod.at_clamp(), file }),
@@ -21,7 +21,7 @@ pub fn inspect(arguments: Inspect) -> Result<ExitCode, Error> {
         Some(file) => Some((file.clone(), read_setup(&file)?)),
         None => None,
     };
-    let options = InspectOptions { rod, read: written.into(), setup, write_setup: write_setup.clone() };
+    let options = InspectOptions { rod, read: written.into(), stage_delay, setup, write_setup: write_setup.clone() };
     let found = look_at(&files, &options);
     if let Some(out) = &write_setup {
         write(&found, out, &files)?;

@@ -13,7 +13,7 @@ mod recording_arguments;
 mod signals;
 mod values;
 
-use crate::error::Error;
+use crate::error::{Error, OptionError};
 use arguments::{Arguments, Command, FakeSensor, Live, Simulate};
 use clap::{CommandFactory, Parser};
 use indicatif::ProgressBar;
@@ -270,7 +270,11 @@ fn scan_of(
     setup: Setup,
     read: ReadOptions,
 ) -> Result<LiveScan, Error> {
-    let Moved { stage, path } = moved;
+    let Moved { stage, stage_delay, path } = moved;
+    if stage_delay.is_some() && !matches!(stage, Some(StageSpec::Table(_))) {
+        let why = "it shifts the times of a table, expected --stage table:FILE; a constant speed starts with the first sample".to_owned();
+        return Err(OptionError { option: "--stage-delay", why }.into());
+    }
     let told = match (&path, &stage) {
         (Some(scene), _) => {
             let scene = read_scene(scene)?;
@@ -284,7 +288,7 @@ fn scan_of(
     let table = if let Some(StageSpec::Table(table)) = &stage { Some(table.clone()) } else { None };
     let inputs = [file].into_iter().chain(setup.files.iter().cloned()).chain(path).chain(table).collect();
     let budget = setup.errors.unwrap_or_default().budget(&rod);
-    Ok(LiveScan { rod, budget, known, setup, stage, path: told, read, inputs })
+    Ok(LiveScan { rod, budget, known, setup, stage, stage_delay, path: told, read, inputs })
 }
 
 fn fake_sensor(arguments: FakeSensor) -> Result<ExitCode, Error> {

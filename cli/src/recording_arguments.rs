@@ -3,7 +3,7 @@
 use crate::values::{Meaning, STAGE, meaning, number, pair};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use rod_files::{ReadOptions, StageSpec};
+use rod_files::{ReadOptions, StageDelay, StageSpec};
 use std::path::PathBuf;
 use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, TableOptions};
 
@@ -13,6 +13,10 @@ pub struct Moved {
     /// How the clamp moves: constant:SPEED (m/s, or rad/s where it only turns) or table:FILE (t,x0,y0,phi0)
     #[arg(long, value_name = "STAGE")]
     pub stage: Option<StageSpec>,
+    /// Delay of the clock of the stage's table, as "120 ms": a pose that the table has at time t is that of the clamp at t + TIME on the sensor's
+    /// clock. Positive: the stage's clock began later [default: that of --setup, or 0]
+    #[arg(long, value_name = "TIME", requires = "stage", allow_hyphen_values = true)]
+    pub stage_delay: Option<StageDelay>,
     /// The scene whose path a constant speed is along [default: that of --rod]
     #[arg(long, value_name = "SCENE")]
     pub path: Option<PathBuf>,

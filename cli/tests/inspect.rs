@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 type Record = [f64; 7];
 
 /// A recording without noise, made once.
-fn recording() -> &'static [Record] {
+pub fn recording() -> &'static [Record] {
     static MADE: OnceLock<Vec<Record>> = OnceLock::new();
     MADE.get_or_init(|| {
         let directory = tempfile::tempdir().unwrap();
@@ -43,7 +43,7 @@ fn own() -> String {
 }
 
 /// What is said of files beside the rod, with the exit status.
-fn inspected(directory: &Path, arguments: &[&str]) -> (Value, i32) {
+pub fn inspected(directory: &Path, arguments: &[&str]) -> (Value, i32) {
     fs::write(directory.join("rod.toml"), SCENE).unwrap();
     let output = vibrissa(directory, &[&["inspect", "--json"], arguments].concat());
     let found =
@@ -52,7 +52,7 @@ fn inspected(directory: &Path, arguments: &[&str]) -> (Value, i32) {
 }
 
 /// Runs the commands that were printed: they must read the files. Returns what the last one said.
-fn runs(directory: &Path, found: &Value) -> String {
+pub fn runs(directory: &Path, found: &Value) -> String {
     let mut said = String::new();
     for command in found["commands"].as_array().unwrap() {
         assert_eq!(command["reads"], true);
@@ -95,13 +95,13 @@ fn fact(found: &Value, what: &str) -> String {
 }
 
 /// Questions and answers.
-fn questions(found: &Value) -> String {
+pub fn questions(found: &Value) -> String {
     let questions = found["files"].as_array().unwrap().iter().flat_map(|file| file["questions"].as_array().unwrap());
     questions.map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// What is said of one table, with the rod or without it.
-fn looked(text: &str, options: &[&str]) -> (Value, i32) {
+pub fn looked(text: &str, options: &[&str]) -> (Value, i32) {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("scan.csv"), text).unwrap();
     inspected(directory.path(), &[&["scan.csv"], options].concat())
@@ -111,7 +111,7 @@ const ROD: &[&str] = &["--rod", "rod.toml"];
 const OWN: &str = "t,x0,y0,phi0,f0x,f0y,m0z\n";
 const FOREIGN: &str = "time [s],pos_x,pos_y,angle [rad],force_x [N],force_y [N],moment_z [N m]\n";
 
-fn words(found: &Value) -> String {
+pub fn words(found: &Value) -> String {
     let words = found["commands"][0]["words"].as_array().unwrap();
     words.iter().map(|word| word.as_str().unwrap()).collect::<Vec<_>>().join(" ")
 }
@@ -398,6 +398,22 @@ fn a_sensor_with_three_components() {
     runs(directory.path(), &found);
 }
 
+/// Reactions of the clamp in one file, its poses in another.
+#[test]
+fn reactions_without_poses_belong_to_a_stage() {
+    let directory = tempfile::tempdir().unwrap();
+    let log = table("t,f0x,f0y,m0z\n", ",", |[t, _, _, _, fx, fy, mz]| [*t, *fx, *fy, *mz]);
+    let stage = table("t,x0,y0,phi0\n", ",", |[t, x, y, phi, ..]| [*t, *x, *y, *phi]);
+    fs::write(directory.path().join("log.csv"), log).unwrap();
+    fs::write(directory.path().join("stage.csv"), stage).unwrap();
+    let files = ["log.csv", "stage.csv", "--rod", "rod.toml", "--write-setup", "sensor.toml"];
+    let (found, status) = inspected(directory.path(), &files);
+    assert_eq!(status, 0, "{found:#}");
+    let setup = fs::read_to_string(directory.path().join("sensor.toml")).unwrap();
+    assert!(setup.contains("sense = \"reaction\""), "{setup}");
+    runs(directory.path(), &found);
+}
+
 #[test]
 fn tracked_points() {
     let mut text = "frame,x,y\n".to_owned();
@@ -410,6 +426,68 @@ fn tracked_points() {
     let found = settles("points.csv", text.as_bytes());
     assert_eq!(meanings(&found), ["frame -", "x -", "y -"]);
     assert_eq!(words(&found), "vibrissa forces points.csv --rod rod.toml --scale 1e-3");
+}
+
+/// The files of a tracker state neither the rod nor the size of a pixel.
+#[test]
+fn points_of_deeplabcut_are_no_forces() {
+    let mut text =
+        "scorer,net,net,net,net,net,net\nbodyparts,base,base,base,tip,tip,tip\ncoords,x,y,likelihood,x,y,likelihood\n"
+            .to_owned();
+    for frame in 0..20 {
+        let _ = writeln!(text, "{frame},{},2,0.9,30,{},0.8", 1 + frame, 4 + frame);
+    }
+    let (found, status) = looked(&text, ROD);
+    let asked = questions(&found);
+    assert!(status == 2 && found["files"][0]["kind"] == "tracked points of DeepLabCut, in pixels", "{found:#}");
+    assert!(
+        asked.contains("Here they are base, tip") && asked.contains("how long is a pixel") && !asked.contains("f0x"),
+        "{asked}"
+    );
+    assert!(found.to_string().contains("tracking.read_deeplabcut(\\\"scan.csv\\\""), "{found:#}");
+}
+
+/// Names in languages that are known need no question; those without an axis or in other languages are questions with a guess.
+#[test]
+fn names_in_other_languages_are_understood_or_asked() {
+    for head in ["时间,位置x,位置y,角度,力x,力y,力矩z\n", "czas,Poloha_X,Poloha_Y,kąt,sila_x,sila_y,moment\n"]
+    {
+        let (found, status) = looked(&table(head, ",", |record| *record), ROD);
+        let roles: Vec<String> =
+            meanings(&found).iter().map(|role| role.split(' ').next().unwrap().to_owned()).collect();
+        assert_eq!((status, roles.join(" ").as_str()), (0, "t x0 y0 phi0 f0x f0y m0z"), "{found:#}");
+    }
+    for (head, asked) in [
+        ("t,x,y,phi,F1,F2,M\n", &["is `F1` f0x?", "is `F2` f0y?"][..]),
+        ("t,pos_1,pos_2,Winkel,kraft1,kraft2,moment\n", &["is `pos_1` x0?", "is `kraft2` f0y?"]),
+        (
+            "a,b,c,d,e,f,g\n",
+            &["is `a` t?", "is `b` x0?", "is `c` y0?", "is `d` phi0?", "is `e` f0x?", "is `f` f0y?", "is `g` m0z?"],
+        ),
+    ] {
+        let (found, status) = looked(&table(head, ",", |record| *record), ROD);
+        let said = questions(&found);
+        assert!(status == 2 && asked.iter().all(|question| said.contains(question)), "{head}: {said}");
+        let values: Vec<&str> = found["files"][0]["columns"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|column| column["behaviour"].as_str().unwrap())
+            .collect();
+        assert!(values[1].starts_with("linear, -2.0") && values[2] == "constant", "{values:?}");
+        assert!(values[4..].iter().all(|value| value.starts_with("at rest until")), "{values:?}");
+        // the answers are options that settle it
+        let answers: Vec<&str> = found["files"][0]["questions"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|q| q["answers"][0].as_str().unwrap())
+            .collect();
+        let answers = answers.join(" ");
+        let answers: Vec<&str> = answers.split(' ').collect();
+        let (found, status) = looked(&table(head, ",", |record| *record), &[ROD, &answers].concat());
+        assert_eq!(status, 0, "{head}: {found:#}");
+    }
 }
 
 #[test]
@@ -487,6 +565,27 @@ fn both_coordinates_have_one_unit() {
     assert!(words(&found).contains("--unit y0=cm"), "{found:#}");
 }
 
+/// x in m and y in mm, without a unit: both in cm agreed with the work, too, and was taken.
+#[test]
+fn coordinates_in_different_units_are_a_question() {
+    let directory = tempfile::tempdir().unwrap();
+    let sweep = "from = [0.08, -0.045]\nto = [-0.02, -0.035]\nangle = 85.0\nstep = 1e-3\n";
+    let (objects, _) = SCENE.split_once("[sweep]").unwrap();
+    fs::write(directory.path().join("scene.toml"), format!("{objects}[sweep]\n{sweep}")).unwrap();
+    let arguments = ["simulate", "scene.toml", "--rate", "50", "--speed", "2e-3", "--file", "made.csv"];
+    assert_eq!(vibrissa(directory.path(), &arguments).status.code(), Some(0));
+    let made = fs::read_to_string(directory.path().join("made.csv")).unwrap();
+    let mut text = "time,pos_x,pos_y,angle,Fx,Fy,Mz\n".to_owned();
+    for line in made.lines() {
+        let cells: Vec<f64> = line.split(',').map_while(|cell| cell.parse().ok()).collect();
+        if let [t, x, y, phi, fx, fy, mz] = cells[..] {
+            let _ = writeln!(text, "{t},{x},{},{},{},{},{}", 1e3 * y, phi.to_degrees(), -1e3 * fx, -1e3 * fy, 1e3 * mz);
+        }
+    }
+    let (found, status) = looked(&text, ROD);
+    assert!(status == 2 && questions(&found).contains("in which unit is `pos_y`?"), "{found:#}");
+}
+
 /// Poses in metres under a heading of millimetres: the work of the clamp is a thousand times too small.
 #[test]
 fn the_work_of_the_clamp_contradicts_a_stated_unit_of_the_pose() {
@@ -533,6 +632,23 @@ fn names_that_are_not_si_leave_the_units_of_the_others_open() {
     // counts: the arm of the moment is a hundred times the way
     let text = table(OWN, ",", |[t, x, y, phi, fx, fy, mz]| [*t, *x, *y, *phi, 1e6 * fx, 1e6 * fy, 1e8 * mz]);
     assert_eq!(looked(&text, &[]).1, 2);
+}
+
+/// A sensor turned by 20 degrees: part of the contact fits as it is, more if it is turned back.
+#[test]
+fn a_sensor_turned_by_no_right_angle_is_a_question() {
+    for (degrees, options) in [(20.0_f64, ROD), (-30.0, ROD), (30.0, &[]), (45.0, &[])] {
+        let text = table(FOREIGN, ",", |[t, x, y, phi, fx, fy, mz]| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            [*t, *x, *y, *phi, cos * fx - sin * fy, sin * fx + cos * fy, *mz]
+        });
+        let (found, status) = looked(&text, options);
+        assert!(status == 2 && !questions(&found).is_empty(), "{degrees}: {found:#}");
+    }
+    // nothing tests a file in which hardly anything is in contact
+    let few: String = own().lines().take(200).map(|line| line.to_owned() + "\n").collect();
+    let (found, status) = looked(&few, &[]);
+    assert!(status == 2 && questions(&found).contains("--rod FILE"), "{found:#}");
 }
 
 #[test]

@@ -26,6 +26,7 @@ mod forces;
 mod friction;
 mod friction_reconstructed;
 mod inspect;
+mod inspect_clocks;
 mod interrupt;
 mod laboratory;
 mod legs;

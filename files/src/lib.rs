@@ -40,8 +40,8 @@ pub use inspect::{
 pub use interrupt::{Interrupt, Interrupted};
 pub use interval::{Interval, intervals};
 pub use live::{
-    AddressError, End, Fed, Feed, Latency, LiveError, LiveReport, LiveScan, Miss, Sensor, SensorAddress, StageSpec,
-    StageSpecError,
+    AddressError, End, Fed, Feed, Latency, LiveError, LiveReport, LiveScan, Miss, Sensor, SensorAddress, StageDelay,
+    StageDelayError, StageSpec, StageSpecError,
 };
 pub use noise_file::read_noise;
 pub use output::{OutputError, Staged};

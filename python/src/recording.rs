@@ -7,7 +7,7 @@ use crate::rod::PyRod;
 use crate::running;
 use crate::samples::SAMPLE;
 use pyo3::prelude::*;
-use rod_files::{LiveError, LiveScan, ReadOptions, Recording, RecordingError, Setup, StageSpec};
+use rod_files::{LiveError, LiveScan, ReadOptions, Recording, RecordingError, Setup, StageDelay, StageSpec};
 use std::path::PathBuf;
 use vibrissa::reconstruct::{Budget, Known};
 
@@ -34,6 +34,9 @@ impl PyRecording {
     ///     A TOML file that describes the sensor.
     /// stage : str, optional
     ///     How the clamp moves: ``"constant:SPEED"`` along ``path`` in m/s, or ``"table:FILE"``.
+    /// stage_delay : float, optional
+    ///     Delay of the clock of a stage's table, s: a pose that the table has at time t is that of the clamp at t + stage_delay on the clock of
+    ///     the file. Without it, that of the setup, or 0.
     /// path : ClampPath, optional
     ///     The path of a clamp of constant speed.
     ///
@@ -48,21 +51,26 @@ impl PyRecording {
     /// ValueError
     ///     It is no recording: columns are missing, most rows cannot be used, or the arguments do not suit it.
     #[staticmethod]
-    #[pyo3(signature = (file, rod, *, setup=None, stage=None, path=None))]
+    #[pyo3(signature = (file, rod, *, setup=None, stage=None, stage_delay=None, path=None))]
     fn read(
         py: Python<'_>,
         file: PathBuf,
         rod: &PyRod,
         setup: Option<PathBuf>,
         stage: Option<&str>,
+        stage_delay: Option<f64>,
         path: Option<&Bound<'_, PyPath>>,
     ) -> PyResult<Self> {
         let setup = setup.map_or_else(|| Ok(Setup::default()), |file| Setup::read(&file)).map_err(errors::file)?;
         let stage: Option<StageSpec> = stage.map(str::parse).transpose().map_err(errors::value)?;
+        let stage_delay = stage_delay.map(StageDelay::new).transpose().map_err(errors::value)?;
+        if stage_delay.is_some() && !matches!(stage, Some(StageSpec::Table(_))) {
+            return Err(errors::value("stage_delay is for the table of a stage, expected stage=\"table:FILE\""));
+        }
         let path = path.and_then(|path| path.get().path.straight());
         let rod = *rod.rod.at_clamp();
         let (budget, known, read) = (Budget::laboratory(&rod), Known::NOTHING, ReadOptions::default());
-        let scan = LiveScan { rod, budget, known, setup, stage, path, read, inputs: Vec::new() };
+        let scan = LiveScan { rod, budget, known, setup, stage, stage_delay, path, read, inputs: Vec::new() };
         let recording = running::run(py, || scan.recording(&file))?.map_err(|error| match error {
             LiveError::Recording(RecordingError::Unreadable { ref source, .. }) => errors::unreadable(source, &error),
             error => errors::value(error),

@@ -449,6 +449,7 @@ class Recording:
         *,
         setup: str | PathLike[str] | None = None,
         stage: str | None = None,
+        stage_delay: float | None = None,
         path: ClampPath | None = None,
     ) -> Recording: ...
     @property

@@ -82,11 +82,21 @@ struct Touched {
     reach: f64,
 }
 
+/// Energy of bending of a rod whose moment vanishes at its only contact, J; none where no moment vanishes on the rod.
+pub(super) fn energy(rod: &Rod, sample: &Sample, stiffness: f64) -> Option<f64> {
+    bending_energy(sample, stiffness, place(rod, sample))
+}
+
+/// Arc length at which the moment vanishes, m; infinite where it does not.
+fn place(rod: &Rod, sample: &Sample) -> f64 {
+    let touch = single(rod, sample.pose, sample.reactions, &Matrix3::zeros());
+    touch.map_or_else(|none| none.touch().map_or(f64::INFINITY, |touch| touch.s), |touch| touch.s)
+}
+
 impl Touched {
     fn of(rod: &Rod, sample: &Sample, noise: [f64; 2], stiffness: f64) -> Self {
         let Reactions { f0x, f0y, m0z } = sample.reactions;
-        let touch = single(rod, sample.pose, sample.reactions, &Matrix3::zeros());
-        let s = touch.map_or_else(|none| none.touch().map_or(f64::INFINITY, |touch| touch.s), |touch| touch.s);
+        let s = place(rod, sample);
         let relative = |noise: f64, value: f64| SIGMAS * noise / value.abs().max(f64::MIN_POSITIVE);
         Self {
             s,

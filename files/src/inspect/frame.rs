@@ -36,6 +36,14 @@ pub(super) const MARGIN: f64 = 3.0;
 pub(super) const UNLIKELY: f64 = -5.0;
 /// Logarithm of the prior probability that a coordinate or the angle of the clamp is reversed.
 const REVERSED: f64 = -3.5;
+/// Logarithm of the prior probability that the sensor is turned about z by no multiple of 90 degrees.
+const OBLIQUE: f64 = -4.0;
+/// Angles of such a turn that are tried, degrees: multiples of the first up to the second. A smaller angle is an error of the clamp's angle.
+const OBLIQUE_ANGLES: (i32, i32) = (10, 40);
+/// Logarithm of the prior probability that x and y are in different units although the file states none: less than that of a reversed coordinate.
+const MIXED: f64 = -4.0;
+/// Logarithm of the prior probability of another unit below which the file or the user states the unit: x and y are then as stated.
+const STATED: f64 = -6.0;
 /// Logarithm of the probability that a hypothesis is right that does not explain the recording: more than a file's word for a unit is worth.
 const MISFIT: f64 = -10.0;
 /// Standard deviation of the logarithm of a rod's stiffness, as far as its file knows it.
@@ -77,7 +85,7 @@ impl ReactionFrame {
         !self.swapped && self.turned == [true; 3]
     }
 
-    fn of(self, Reactions { f0x, f0y, m0z }: Reactions) -> Reactions {
+    pub fn of(self, Reactions { f0x, f0y, m0z }: Reactions) -> Reactions {
         let [x, y, z] = self.turned.map(|turned| if turned { -1.0 } else { 1.0 });
         let (f0x, f0y) = if self.swapped { (f0y, f0x) } else { (f0x, f0y) };
         Reactions { f0x: x * f0x, f0y: y * f0y, m0z: z * m0z }
@@ -181,6 +189,8 @@ pub(super) struct Verdict {
     pub is_decided: bool,
     /// Whether the units can.
     pub are_units_decided: [bool; DIMENSIONS],
+    /// The angle about z, degrees, counter-clockwise, by which the forces have to be turned to fit about as well or better than as they are.
+    pub oblique: Option<f64>,
     /// Means of the reactions over the first samples, where these are steady and not 0: an offset, which was subtracted.
     pub offset: Option<[f64; 3]>,
 }
@@ -224,7 +234,11 @@ pub(super) fn verdict(samples: &[Sample], before: &Before<'_>) -> Option<Verdict
     let Hypothesis { frame, reversed, units } = best.hypothesis;
     let differs = |other: &Hypothesis| (other.frame, other.reversed) != (frame, reversed);
     let is_decided = lead(&differs);
-    let are_units_decided = [0, 1, 2, 3].map(|of: usize| lead(&|other| other.units[of] != units[of]));
+    let mut are_units_decided = [0, 1, 2, 3].map(|of: usize| lead(&|other| other.units[of] != units[of]));
+    let of_one = INDEPENDENT * best.energy + before.units[0][units[0]].prior;
+    let is_mixed =
+        mixed_lengths(&averages, noise, &best.hypothesis, before).is_some_and(|mixed| of_one - mixed < MARGIN);
+    are_units_decided[0] &= !is_mixed;
     let mut others: Vec<Rated> = Vec::new();
     for other in rated.iter().filter(|other| differs(&other.hypothesis)) {
         let is_new = others.iter().all(|known| {
@@ -234,7 +248,74 @@ pub(super) fn verdict(samples: &[Sample], before: &Before<'_>) -> Option<Verdict
             others.push(*other);
         }
     }
-    Some(Verdict { best, others, is_decided, are_units_decided, offset })
+    let oblique = if is_decided { oblique(&averages, noise, &best, before) } else { None };
+    Some(Verdict { best, others, is_decided, are_units_decided, oblique, offset })
+}
+
+/// The angle by which forces turned about z explain the samples as well as the best hypothesis, its smaller prior probability included, or better;
+/// none if all are less probable.
+fn oblique(averages: &[Sample], noise: [f64; 3], best: &Rated, before: &Before<'_>) -> Option<f64> {
+    let Hypothesis { frame, reversed: [x, y, phi], units: [length, angle, force, moment] } = best.hypothesis;
+    // as in `Shared::hypotheses`: a reversed angle is a mirrored frame
+    let [a, b, c] = frame.turned;
+    let (frame, y) = if phi { (ReactionFrame { turned: [a, !b, !c], ..frame }, !y) } else { (frame, y) };
+    let plain = frame.samples(&turned(averages, before.units[1][angle].factor));
+    let sign = |turned: bool| if turned { -1.0 } else { 1.0 };
+    let one = match before.rod {
+        Some(_) => [1.0; 2],
+        None => [before.units[2][force].factor, before.units[3][moment].factor],
+    };
+    let way = one[0] * before.units[0][length].factor;
+    let (step, most) = OBLIQUE_ANGLES;
+    let angles = (1..=most / step).flat_map(|k| [k * step, -k * step]).map(f64::from);
+    let rated = angles.filter_map(|degrees| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let rotated = |sample: &Sample| {
+            let Reactions { f0x, f0y, m0z } = sample.reactions;
+            let reactions = Reactions { f0x: cos * f0x - sin * f0y, f0y: sin * f0x + cos * f0y, m0z };
+            Sample { reactions, ..*sample }
+        };
+        let samples: Vec<Sample> = plain.iter().map(rotated).collect();
+        let slope = slope(&samples).filter(|slope| *slope > 0.0);
+        let found = agreements(&samples, ReactionFrame::AS_IS, noise, slope, before);
+        let (_, agreement, stiffness) = found.into_iter().find(|one| one.0 == [force, moment])?;
+        let energy = agreement.concordance([sign(x) * way, sign(y) * way, one[1], one[1]]);
+        let Agreement { explained, possible, reach, .. } = agreement;
+        let prior = best.prior + OBLIQUE;
+        Some((degrees, Rated { explained, possible, reach, energy, stiffness, prior, ..*best }.score()))
+    });
+    let (degrees, score) = rated.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (score > best.score()).then_some(degrees)
+}
+
+/// The work's and the prior's part of the score if x and y are in different units; none where one of them stays the same, or their units are stated.
+fn mixed_lengths(averages: &[Sample], noise: [f64; 3], best: &Hypothesis, before: &Before<'_>) -> Option<f64> {
+    let lengths = &before.units[0];
+    let moves = |of: fn(&Sample) -> f64| averages.iter().any(|sample| of(sample) != of(&averages[0]));
+    let is_open = lengths.iter().skip(1).any(|candidate| candidate.prior > STATED);
+    if !(is_open && moves(|sample| sample.pose.x) && moves(|sample| sample.pose.y)) {
+        return None;
+    }
+    let [_, angle, force, moment] = best.units;
+    let [x, y, phi] = best.reversed;
+    // as in `Shared::hypotheses`: a reversed angle is a mirrored frame
+    let [a, b, c] = best.frame.turned;
+    let (frame, y) = if phi { (ReactionFrame { turned: [a, !b, !c], ..best.frame }, !y) } else { (best.frame, y) };
+    let samples = frame.samples(&turned(averages, before.units[1][angle].factor));
+    let slope = slope(&samples).filter(|slope| *slope > 0.0);
+    let found = agreements(&samples, frame, noise, slope, before);
+    let agreement = found.into_iter().find(|one| one.0 == [force, moment])?.1;
+    let one = match before.rod {
+        Some(_) => [1.0; 2],
+        None => [before.units[2][force].factor, before.units[3][moment].factor],
+    };
+    let sign = |turned: bool| if turned { -1.0 } else { 1.0 };
+    let pairs = lengths.iter().flat_map(|a| lengths.iter().map(move |b| (a, b))).filter(|(a, b)| a.factor != b.factor);
+    let rated = pairs.map(|(a, b)| {
+        let factors = [sign(x) * one[0] * a.factor, sign(y) * one[0] * b.factor, one[1], one[1]];
+        INDEPENDENT * agreement.concordance(factors) + a.prior.min(b.prior) + MIXED
+    });
+    rated.max_by(f64::total_cmp)
 }
 
 /// Samples whose angles are in another unit.
@@ -248,9 +329,9 @@ fn turned(samples: &[Sample], factor: f64) -> Vec<Sample> {
 }
 
 /// Means of consecutive samples less the offset, the standard deviations of the reactions in them, and the offset, if there is one.
-type Averages = (Vec<Sample>, [f64; 3], Option<[f64; 3]>);
+pub(super) type Averages = (Vec<Sample>, [f64; 3], Option<[f64; 3]>);
 
-fn averages(samples: &[Sample]) -> Option<Averages> {
+pub(super) fn averages(samples: &[Sample]) -> Option<Averages> {
     let channels: [fn(&Sample) -> f64; 3] = [|s| s.reactions.f0x, |s| s.reactions.f0y, |s| s.reactions.m0z];
     let count: Vec<f64> = (0..samples.len()).map(|k| k as f64).collect();
     let length = samples.len().div_ceil(MOST).max(1);
@@ -317,7 +398,7 @@ impl Start {
 }
 
 /// Slope of the line of tangential contacts, if there is one.
-fn slope(samples: &[Sample]) -> Option<f64> {
+pub(super) fn slope(samples: &[Sample]) -> Option<f64> {
     Some(plausibility(&Rod::new(1.0, 1.0).ok()?, samples).line?.slope)
 }
 

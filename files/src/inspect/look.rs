@@ -9,10 +9,14 @@ use super::proposal::{Proposal, name_of};
 use super::report::{Certainty, InspectedColumn, InspectedFile, Question};
 use super::rows::rows;
 use super::shell_word::quoted;
-use super::values::poses;
+use super::tracked::{Tracked, tracked};
+use super::unnamed::{behaviour, behaviour_text, mark_open, suppose, with_supposed};
+use super::values::{channel, poses};
 use crate::ReadOptions;
 use std::path::{Path, PathBuf};
-use vibrissa::hw::recording::{ColumnGuess, Header, Quantity, Role, Sureness, Table, TableGuess, TableKind, guess};
+use vibrissa::hw::recording::{
+    ColumnGuess, ColumnMap, Header, Quantity, Role, Sureness, Table, TableGuess, TableKind, guess,
+};
 use vibrissa::hw::{Dimension, Unit};
 use vibrissa::reconstruct::noise_estimate::estimate;
 
@@ -29,6 +33,8 @@ pub(super) enum Content {
     Raw,
     /// Points on a rod.
     Frames,
+    /// Body parts in a video.
+    Tracked(Tracked),
     /// Wrenches of a topic (MCAP).
     Topic(String),
     /// None of these, or it cannot be read.
@@ -61,6 +67,10 @@ impl Look {
             binary::tdms(path, &mut look.report);
         } else if starts(b"\x89MCAP") {
             look.content = binary::mcap(path, &mut look.report).map_or(Content::Other, Content::Topic);
+        } else if let Some(tracked) = tracked(path, &mut look.report) {
+            look.report.kind = tracked.kind();
+            tracked.ask(&mut look.report);
+            look.content = Content::Tracked(tracked);
         } else {
             look.table(read);
         }
@@ -74,7 +84,24 @@ impl Look {
         self.proposal.layout.header = header;
         self.proposal.layout.units.clear();
         let is_named = self.proposal.layout.header != Header::None;
-        let guess = guess(&table, is_named, &read.columns);
+        let mut found = guess(&table, is_named, &read.columns);
+        let supposed = suppose(&table, &found);
+        if !supposed.is_empty() {
+            found = guess(&table, is_named, &with_supposed(&read.columns, &table, &supposed));
+            mark_open(&mut found, &supposed);
+        }
+        let without_poses = wrench_of_reactions(&table, &found, &read.columns);
+        if let Some(map) = without_poses {
+            let known = found;
+            found = guess(&table, is_named, &map);
+            // their names stand for SI units, as beside poses
+            for (column, known) in found.columns.iter_mut().zip(known.columns) {
+                if column.unit.is_none() && known.is_unit_known {
+                    (column.unit, column.unit_basis, column.is_unit_known) = (known.unit, known.unit_basis, true);
+                }
+            }
+        }
+        let guess = found;
         self.content = match guess.kind {
             TableKind::Reactions => Content::Reactions,
             TableKind::Wrench => Content::Wrench,
@@ -89,7 +116,7 @@ impl Look {
             Content::Stage => "poses of the clamp, without forces: a stage",
             Content::Raw => "raw values of a sensor",
             Content::Frames => "points on the rod, frame by frame",
-            Content::Topic(_) | Content::Other => "no columns that are understood",
+            Content::Topic(_) | Content::Tracked(_) | Content::Other => "no columns that are understood",
         }
         .to_owned();
         rows(&mut self.report, &table, &guess);
@@ -97,6 +124,13 @@ impl Look {
             self.report.fact(MOTION, path);
         }
         self.report.columns = guess.columns.iter().map(|column| described(&table, column)).collect();
+        if guess.columns.iter().any(|column| column.role.is_none() || column.meaning.sureness == Sureness::Open) {
+            let times = channel(&table, &guess, Role::Time);
+            for (described, column) in self.report.columns.iter_mut().zip(&guess.columns) {
+                let found = behaviour(&table, column);
+                described.behaviour = found.map(|found| behaviour_text(&found, times.as_deref()));
+            }
+        }
         if self.content == Content::Frames {
             of_frames(&mut self.report, &guess);
         }
@@ -122,7 +156,9 @@ impl Look {
                 self.proposal.set_column(role, &name);
             }
             if column.meaning.sureness == Sureness::Open {
-                let text = format!("is `{name}` {role}?");
+                let why =
+                    if column.meaning.why.is_empty() { String::new() } else { format!(" {}", column.meaning.why) };
+                let text = format!("is `{name}` {role}?{why}");
                 self.report.questions.push(Question { text, answers: vec![format!("--column {role}={name}")] });
             }
             let Some(dimension) = role.dimension() else { continue };
@@ -233,6 +269,22 @@ impl Look {
     }
 }
 
+/// Reactions without poses are components of a wrench: the setup states that they are reactions. None where a table has none.
+fn wrench_of_reactions(table: &Table, guess: &TableGuess, map: &ColumnMap) -> Option<ColumnMap> {
+    let pairs = [(Role::F0x, Role::Fx), (Role::F0y, Role::Fy), (Role::M0z, Role::Tz)];
+    let found: Vec<(Role, String)> = pairs
+        .iter()
+        .filter(|(_, component)| guess.of(*component).is_none())
+        .filter_map(|(reaction, component)| Some((*component, name_of(table, guess.of(*reaction)?.column))))
+        .collect();
+    let is_wrench = guess.kind == TableKind::Wrench && !found.is_empty();
+    is_wrench.then(|| {
+        let others = map.assigned().filter(|(role, _)| pairs.iter().all(|pair| pair.0 != *role));
+        let others = others.fold(ColumnMap::new(), |map, (role, name)| map.with(role, name));
+        found.into_iter().fold(others, |map, (role, name)| map.with(role, name))
+    })
+}
+
 fn starts_with(path: &Path, magic: &[u8]) -> bool {
     use std::io::Read;
     let mut start = vec![0; magic.len()];
@@ -301,5 +353,6 @@ fn described(table: &Table, column: &ColumnGuess) -> InspectedColumn {
         least: has_numbers.then_some(values.least),
         most: has_numbers.then_some(values.most),
         noise,
+        behaviour: None,
     }
 }

@@ -1,11 +1,12 @@
 //! A look at files of unknown layout: what they hold, what must be mended, and the command that reads them.
 //!
-//! `look` describes one file: `layout` how it is written, `rows` its times and cells, `motion` the path of the clamp, `binary` files of
-//! other programs. `physics` finds axes, signs and units (`frame`, `agreement`, `energy`). `commands` puts files together and tries the readers with
+//! `look` describes one file: `layout` how it is written, `rows` its times and cells, `unnamed` columns whose names say too little, `motion` the path of the clamp, `binary` files of
+//! other programs, `tracked` those of trackers of video. `physics` finds axes, signs and units (`frame`, `agreement`, `energy`), `clock` the delay of a stage's clock. `commands` puts files together and tries the readers with
 //! the options of `proposal` and the `setup_text`. `shell_word` quotes words of commands.
 
 mod agreement;
 mod binary;
+mod clock;
 mod commands;
 mod energy;
 mod frame;
@@ -18,12 +19,14 @@ mod report;
 mod rows;
 mod setup_text;
 mod shell_word;
+mod tracked;
+mod unnamed;
 mod values;
 
 pub use report::{Certainty, Fact, InspectFault, InspectedColumn, InspectedFile, Inspection, Question, ReadCommand};
 pub use shell_word::quoted;
 
-use crate::{ReadOptions, Setup};
+use crate::{ReadOptions, Setup, StageDelay};
 use look::Look;
 use std::path::PathBuf;
 use vibrissa::Rod;
@@ -44,6 +47,8 @@ pub struct InspectOptions {
     pub rod: Option<RodInspected>,
     /// What the user said of layout, columns and units.
     pub read: ReadOptions,
+    /// Delay of the clock of a stage's table.
+    pub stage_delay: Option<StageDelay>,
     /// A setup, with its file.
     pub setup: Option<(PathBuf, Setup)>,
     /// Where a setup is to be written.

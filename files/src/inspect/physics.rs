@@ -1,7 +1,7 @@
 //! Axes, signs and units of a recording, by the physics, in words and as options.
 
 use super::frame::{
-    Before, Candidate, DIMENSIONS, Hypothesis, MARGIN, NEAR, Rated, ReactionFrame, UNLIKELY, Verdict, verdict,
+    Before, Candidate, DIMENSIONS, Hypothesis, MARGIN, NEAR, Rated, ReactionFrame, UNLIKELY, Verdict, slope, verdict,
 };
 use super::motion::{MOTION, motion};
 use super::proposal::Proposal;
@@ -9,6 +9,7 @@ use super::report::{Certainty, InspectedFile, Question};
 use super::shell_word::quoted;
 use vibrissa::hw::Unit;
 use vibrissa::hw::recording::Role;
+use vibrissa::rod::Reactions;
 use vibrissa::{Pose, Rod, Sample};
 
 /// Relative difference between the stiffness by the recording and that of the rod from which on it is reported.
@@ -85,6 +86,75 @@ fn candidates(columns: &[Measured; 6], dimension: usize) -> Vec<Candidate> {
     std::iter::once(first).chain(others.filter(|other| other.prior.is_finite())).collect()
 }
 
+/// The best hypothesis, decided or not, as a search for the delay of the stage's clock needs it.
+pub(super) struct InFrame {
+    best: Rated,
+    units: [Vec<Candidate>; DIMENSIONS],
+    stiffness: f64,
+}
+
+impl InFrame {
+    /// Of samples; none where too few are in contact, or no hypothesis explains them.
+    pub fn of(samples: &[Sample], columns: &[Measured; 6], is_own: bool, rod: Option<&Rod>) -> Option<Self> {
+        let units = [0, 1, 2, 3].map(|dimension| candidates(columns, dimension));
+        let frames = if is_own { OWN_NAMES } else { ANY_NAMES };
+        let found = verdict(samples, &Before { rod, units: units.clone(), frames })?;
+        if !found.best.fits() {
+            return None;
+        }
+        let offset = found.offset.unwrap_or_default();
+        let mut frame = Self { best: found.best, units, stiffness: 1.0 };
+        let in_si = |sample: &Sample| Sample {
+            pose: frame.pose(sample.pose),
+            reactions: frame.reactions(less(sample.reactions, offset)),
+            ..*sample
+        };
+        frame.stiffness = match rod {
+            Some(rod) if (1.0 / NEAR..NEAR).contains(&frame.best.stiffness) => {
+                frame.best.stiffness * rod.bending_stiffness()
+            }
+            _ => slope(&samples.iter().map(in_si).collect::<Vec<_>>()).filter(|slope| *slope > 0.0)?,
+        };
+        Some(frame)
+    }
+
+    /// How probable it is, but for a constant.
+    pub fn score(&self) -> f64 {
+        self.best.score()
+    }
+
+    /// Bending stiffness of the rod by these samples, N m^2.
+    pub fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    fn factor(&self, of: usize) -> f64 {
+        self.units[of][self.best.hypothesis.units[of]].factor
+    }
+
+    /// A pose in SI, m and rad.
+    pub fn pose(&self, Pose { x, y, phi }: Pose) -> Pose {
+        let [a, b, c] = self.best.hypothesis.reversed.map(|reversed| if reversed { -1.0 } else { 1.0 });
+        Pose { x: a * self.factor(0) * x, y: b * self.factor(0) * y, phi: c * self.factor(1) * phi }
+    }
+
+    /// Reactions without an offset in SI and in the axes of the scene.
+    pub fn reactions(&self, reactions: Reactions) -> Reactions {
+        let Reactions { f0x, f0y, m0z } = self.best.hypothesis.frame.of(reactions);
+        let (force, moment) = (self.factor(2), self.factor(3));
+        Reactions { f0x: force * f0x, f0y: force * f0y, m0z: moment * m0z }
+    }
+
+    /// The same of standard deviations: of forces and of moments.
+    pub fn noise(&self, [x, y, z]: [f64; 3]) -> [f64; 2] {
+        [self.factor(2) * x.max(y), self.factor(3) * z]
+    }
+}
+
+fn less(Reactions { f0x, f0y, m0z }: Reactions, [x, y, z]: [f64; 3]) -> Reactions {
+    Reactions { f0x: f0x - x, f0y: f0y - y, m0z: m0z - z }
+}
+
 /// The hypothesis that the physics prefers, where it is decided.
 pub(super) struct Preferred {
     pub frame: ReactionFrame,
@@ -112,6 +182,8 @@ pub(super) fn physics(
         );
         if !is_own {
             ask(file, names);
+        } else if rod.is_none() && !is_given {
+            untested(file, columns);
         }
         return None;
     };
@@ -124,6 +196,16 @@ pub(super) fn physics(
         file.fact("offset", text);
     }
     report(file, &found, columns, rod.is_some());
+    for (column, of) in columns.iter().zip([|pose: &Pose| pose.x, |pose: &Pose| pose.y]) {
+        let first = samples.first().map_or(0.0, |sample| of(&sample.pose));
+        if first != 0.0 && column.says < Says::Name && samples.iter().all(|sample| of(&sample.pose) == first) {
+            let text = format!(
+                "the unit of `{}`: it stays the same, so that nothing tests it; it is taken for that of the other coordinate",
+                column.name
+            );
+            file.fact("not checked", text);
+        }
+    }
     let best = &found.best;
     if !best.fits() {
         if !is_given {
@@ -132,6 +214,12 @@ pub(super) fn physics(
         return None;
     }
     stiffness(file, best, rod);
+    if let Some(degrees) = found.oblique
+        && !is_given
+    {
+        turned(file, degrees, columns);
+        return None;
+    }
     if !found.is_decided {
         if !is_given {
             choose(file, &found, columns, &units);
@@ -241,6 +329,26 @@ fn misfit(file: &mut InspectedFile, best: &Rated, columns: &[Measured; 6]) {
         best.energy
     );
     file.questions.push(Question { text, answers: vec![as_they_are(columns)] });
+}
+
+/// The question where forces that are turned explain more.
+fn turned(file: &mut InspectedFile, degrees: f64, columns: &[Measured; 6]) {
+    let [x, y] = [3, 4].map(|k: usize| columns[k].name.as_str());
+    let text = format!(
+        "is the sensor turned about z by no multiple of 90 degrees? The physics fits better if the forces `{x}`, `{y}` are turned by about {degrees:.0} degrees \
+         counter-clockwise into the axes of the scene; friction and a rod that tapers may seem so, too"
+    );
+    let answers = vec![
+        "--setup FILE with angle = DEGREES in [mounting] (of a sensor with --stage), or forces in the axes of the poses".to_owned(),
+        as_they_are(columns),
+    ];
+    file.questions.push(Question { text, answers });
+}
+
+/// The question where nothing tests the names of the columns.
+fn untested(file: &mut InspectedFile, columns: &[Measured; 6]) {
+    let text = "do the forces and the moment lie along the axes of the poses, as their names state? Without the rod nothing tests axes, signs and units".to_owned();
+    file.questions.push(Question { text, answers: vec!["--rod FILE".to_owned(), as_they_are(columns)] });
 }
 
 /// The option that settles everything: all units of the reactions.

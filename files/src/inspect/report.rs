@@ -46,6 +46,8 @@ pub struct InspectedColumn {
     pub most: Option<f64>,
     /// Standard deviation of the noise of a force or moment, in the unit of the column.
     pub noise: Option<f64>,
+    /// How its values go on, as `linear`, `constant` or `at rest until 3.2 s`, where the meaning of a column of the table is not known.
+    pub behaviour: Option<String>,
 }
 
 /// Something to be mended in a file.

@@ -49,10 +49,11 @@ pub(super) struct Head<'a> {
     pub tare: String,
 }
 
-/// Records the rod without contact: tare, time of the first sample, start of the stage.
+/// Records the rod without contact: tare, time of the first sample, start of the stage. The stage is that of the scan, or moves by `motion`.
 pub(super) fn head<'a>(
     scan: &'a LiveScan,
     sensor: &mut Sensor,
+    motion: Option<Motion>,
     report: &mut LiveReport,
     tell: &mut dyn FnMut(&str),
     stopped: &dyn Fn() -> bool,
@@ -113,7 +114,11 @@ pub(super) fn head<'a>(
         let chain = SignalChain::new(scaled(), wrench_chain);
         return Ok(Head { chain, samples, tare: "as recorded".into() });
     };
-    let motion = Motion::new(scan.stage.as_ref(), scan.path.as_ref(), start, &scan.read)?;
+    let delay = scan.delay().unwrap_or_default().seconds();
+    let motion = match motion {
+        Some(motion) => motion,
+        None => Motion::new(scan.stage.as_ref(), scan.path.as_ref(), start, delay, &scan.read)?,
+    };
     if matches!(motion, Motion::Told) {
         return Err(LiveError::NoStage { address: sensor.name.clone() });
     }
@@ -133,6 +138,22 @@ pub(super) fn head<'a>(
             Ok(sample) => samples.push(sample),
             // the first samples may be before the start of a table of poses
             Err(error) => report.miss(&error.to_string()),
+        }
+    }
+    // a table of poses may begin after the tare
+    while samples.len() < FEWEST && !stopped() {
+        match sensor.feed.next() {
+            None => break,
+            Some(Ok(Fed::Raw(raw))) => match chain.take(&raw) {
+                Ok(sample) => samples.push(sample),
+                Err(error) => report.miss(&error.to_string()),
+            },
+            Some(Ok(Fed::Reactions(sample))) => samples.push(sample),
+            Some(Err(Miss::Silence(text))) => {
+                report.miss(&text);
+                break;
+            }
+            Some(Err(Miss::Fault(text))) => report.miss(&text),
         }
     }
     if samples.len() < FEWEST {

@@ -28,5 +28,5 @@ pub use error::LiveError;
 pub use feed::{Fed, Feed, Miss, Sensor};
 pub use latency::Latency;
 pub use scan::LiveScan;
-pub use stage::{StageSpec, StageSpecError};
+pub use stage::{StageDelay, StageDelayError, StageSpec, StageSpecError};
 pub use summary::{End, LiveReport};

@@ -38,7 +38,7 @@ impl LiveScan {
         for finding in report.findings() {
             tell(&format!("warning: {finding}"));
         }
-        let Head { mut chain, samples, tare } = head(self, &mut sensor, &mut report, tell, stopped)?;
+        let Head { mut chain, samples, tare } = head(self, &mut sensor, None, &mut report, tell, stopped)?;
         tell(&format!("tare: {tare}"));
         let settings = settings(self, &samples, rounding(chain.calibration(), &self.setup.mounting, &samples[0]))?;
         let noise = settings.noise;

@@ -1,7 +1,9 @@
 //! The motion of the clamp as an argument of the command line.
 
+use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
+use vibrissa::hw::{Dimension, Unit};
 
 /// How the clamp is moved: `constant:SPEED` along the path of a scene, from the first sample on, in m/s (rad/s where the clamp
 /// only turns); or `table:FILE`, poses with their times.
@@ -60,9 +62,81 @@ impl FromStr for StageSpec {
     }
 }
 
+/// Delay of a stage's clock, s: a pose that the table of the stage has at time t is that of the clamp at t + delay on the sensor's clock. It is
+/// positive if the stage's clock began after the sensor's. As text a number with a unit, `120 ms`, or a number of seconds.
+///
+/// ```
+/// use rod_files::StageDelay;
+/// assert_eq!("-120 ms".parse::<StageDelay>()?.seconds(), -0.12);
+/// assert_eq!(StageDelay::new(0.12)?.to_string(), "0.12 s");
+/// # Ok::<(), rod_files::StageDelayError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StageDelay(f64);
+
+/// Why a text or a number is not a delay.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the delay is `{found}`, expected a finite time as \"120 ms\" or \"-2.5 s\", or a number of seconds")]
+pub struct StageDelayError {
+    /// The text.
+    found: String,
+}
+
+impl StageDelay {
+    /// From seconds.
+    ///
+    /// # Errors
+    /// [`StageDelayError`] if it is not finite.
+    pub fn new(seconds: f64) -> Result<Self, StageDelayError> {
+        if seconds.is_finite() { Ok(Self(seconds)) } else { Err(StageDelayError { found: seconds.to_string() }) }
+    }
+
+    /// The delay, s.
+    pub fn seconds(self) -> f64 {
+        self.0
+    }
+}
+
+impl FromStr for StageDelay {
+    type Err = StageDelayError;
+
+    fn from_str(text: &str) -> Result<Self, StageDelayError> {
+        let error = || StageDelayError { found: text.to_owned() };
+        let trimmed = text.trim();
+        let end = trimmed.trim_end_matches(|letter: char| letter.is_alphabetic()).len();
+        let number: f64 = trimmed[..end].trim_end().parse().map_err(|_| error())?;
+        let factor = match &trimmed[end..] {
+            "" => 1.0,
+            unit => Unit::parse(unit, Dimension::Time).map_err(|_| error())?.factor,
+        };
+        // 120 ms is 0.12 s to the last digit
+        let per_unit = (1.0 / factor).round();
+        Self::new(if factor < 1.0 { number / per_unit } else { number * factor }).map_err(|_| error())
+    }
+}
+
+impl fmt::Display for StageDelay {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} s", self.0)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn delays_have_units_and_signs() {
+        for (text, seconds) in
+            [("120 ms", 0.12), ("-120ms", -0.12), ("2.5", 2.5), ("1e-3 s", 1e-3), ("2 min", 120.0), ("0", 0.0)]
+        {
+            assert_eq!(text.parse::<StageDelay>().unwrap().seconds(), seconds, "{text}");
+        }
+        for text in ["", "ms", "5 mm", "NaN", "inf s", "1,5 s", "5 %"] {
+            let error = text.parse::<StageDelay>().unwrap_err().to_string();
+            assert!(error.starts_with(&format!("the delay is `{text}`, expected a finite time")), "{error}");
+        }
+    }
 
     #[test]
     fn forms() {

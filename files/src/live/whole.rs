@@ -4,10 +4,12 @@ use super::address::SensorAddress;
 use super::error::LiveError;
 use super::feed::{Fed, Feed, Miss, Sensor};
 use super::head::{Chain, Head, head};
+use super::motion::Motion;
 use super::scan::LiveScan;
 use super::summary::LiveReport;
 use crate::{Place, Recording, RecordingError, Row, RowFault, RowProblem};
 use std::path::Path;
+use vibrissa::Pose;
 use vibrissa::hw::{Calibration, ChainError, LinkCounters, RawSample, ReactionSample, StageError, StageSource};
 
 impl LiveScan {
@@ -25,13 +27,23 @@ impl LiveScan {
         if sensor.calibration.is_none() {
             return Err(RecordingError::Posed { file: file.to_path_buf() }.into());
         }
-        let whole = self.whole(sensor)?;
+        let whole = self.whole(sensor, None)?;
         let rows = (1..).map(Place::Sample).zip(whole.samples).map(|(place, sample)| (place, row(place, sample)));
         let mut notes = whole.remarks;
         if whole.beyond > 0 {
             notes.push(format!("{} samples after the arrival of the stage are left out", whole.beyond));
         }
         Ok(Recording { notes, ..Recording::of_rows(file.to_path_buf(), rows, &self.rod)? })
+    }
+
+    /// The usable reactions in a file of a sensor, if the clamp stood at `pose`; their times are those of the sensor.
+    ///
+    /// # Errors
+    /// [`LiveError`]: the file cannot be read, or its samples cannot be turned into reactions.
+    pub(crate) fn standing(&self, file: &Path, pose: Pose) -> Result<Vec<ReactionSample>, LiveError> {
+        let sensor = Sensor::open(&SensorAddress::File(file.to_path_buf()), &self.setup, &self.read)?;
+        let whole = self.whole(sensor, Some(Motion::Standing(pose)))?;
+        Ok(whole.samples.into_iter().flatten().filter(|sample| sample.quality.is_usable()).collect())
     }
 }
 
@@ -56,16 +68,17 @@ struct RecordedReactions {
 }
 
 impl LiveScan {
-    /// The reactions behind all samples of a recording, with the tare, the stage and the mounting of a live scan.
+    /// The reactions behind all samples of a recording, with the tare, the stage and the mounting of a live scan. The clamp moves as the stage
+    /// of the scan, or by `motion`.
     ///
     /// # Errors
     /// [`LiveError`]: too few samples, no tare, or nothing tells the poses of the clamp.
-    fn whole(&self, mut sensor: Sensor) -> Result<RecordedReactions, LiveError> {
+    fn whole(&self, mut sensor: Sensor, motion: Option<Motion>) -> Result<RecordedReactions, LiveError> {
         let fed: Vec<Result<Fed, Miss>> =
             std::iter::from_fn(|| sensor.feed.next()).zip(0..).map(with_sequence_number).collect();
         sensor.feed = Box::new(Again { fed: fed.clone().into_iter(), handed: 0 });
         let mut report = LiveReport::new(self, &sensor.name);
-        let Head { mut chain, samples, .. } = head(self, &mut sensor, &mut report, &mut |_| (), &|| false)?;
+        let Head { mut chain, samples, .. } = head(self, &mut sensor, motion, &mut report, &mut |_| (), &|| false)?;
         let heard = sensor.feed.counters().samples as usize;
         let mut first = samples.into_iter().peekable();
         let mut found = Vec::with_capacity(fed.len());

@@ -6,6 +6,7 @@ use super::field::{component, positive, units};
 use super::gauges::gauges;
 use super::recording::recording;
 use super::{SensorCalibration, Setup, TareSetup};
+use crate::StageDelay;
 use crate::toml_file::{Fault, place_of};
 use std::ops::Range;
 use std::path::Path;
@@ -19,7 +20,7 @@ use vibrissa::hw::{
 
 /// The setup of a document; files that it names are in the directory.
 pub(super) fn setup(document: &SetupDocument, tree: &DeTable<'_>, directory: &Path) -> Result<Setup, Fault> {
-    let SetupDocument { sensor, mounting, accuracy, tare, identification, recording: played, errors: shared } =
+    let SetupDocument { sensor, mounting, accuracy, tare, identification, stage, recording: played, errors: shared } =
         document;
     let table = |name| place_of(tree, name).unwrap_or(0..0);
     let (calibration, rated) = match gauges(sensor, table("sensor"), directory)? {
@@ -40,9 +41,14 @@ pub(super) fn setup(document: &SetupDocument, tree: &DeTable<'_>, directory: &Pa
         accuracy,
         tare: window(tare)?,
         half_window: half_window.map(|half| positive("half_window", half, "m")).transpose()?,
+        stage_delay: stage.delay.as_ref().map(delay).transpose()?,
         warnings: Vec::new(),
         files: Vec::new(),
     })
+}
+
+fn delay(field: &Spanned<f64>) -> Result<StageDelay, Fault> {
+    StageDelay::new(*field.get_ref()).map_err(|error| Fault::new(field.span(), error.to_string()))
 }
 
 fn profile(table: &SensorTable) -> Result<RdtProfile, Fault> {

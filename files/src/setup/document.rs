@@ -18,6 +18,8 @@ pub(super) struct SetupDocument {
     #[serde(default)]
     pub identification: IdentificationTable,
     #[serde(default)]
+    pub stage: StageClockTable,
+    #[serde(default)]
     pub recording: RecordingTable,
     pub errors: Option<ErrorsTable>,
 }
@@ -101,6 +103,13 @@ pub(super) struct TareTable {
 #[serde(deny_unknown_fields)]
 pub(super) struct IdentificationTable {
     pub half_window: Option<Spanned<f64>>,
+}
+
+/// `[stage]`: its clock.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StageClockTable {
+    pub delay: Option<Spanned<f64>>,
 }
 
 /// `[recording]`: what of a recording is meant.

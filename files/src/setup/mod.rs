@@ -15,15 +15,15 @@ pub use calibration::{Gauges, SensorCalibration};
 pub use errors::SharedErrors;
 pub use recording::{RecordingSetup, RecordingTime};
 
-use crate::SceneError;
-use crate::toml_file::{self, Quantities};
+use crate::toml_file::{self, Fault, Quantities};
+use crate::{SceneError, StageDelay};
 use document::SetupDocument;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
-use toml::de::{DeTable, Deserializer};
+use toml::de::{DeTable, DeValue, Deserializer};
 use vibrissa::hw::device::rdt::RdtProfile;
-use vibrissa::hw::{Accuracy, Frame, Mounting, RatedLoad, Wrench};
+use vibrissa::hw::{Accuracy, Dimension, Frame, Mounting, RatedLoad, Wrench};
 
 /// How a sensor is set up.
 #[derive(Clone, Debug)]
@@ -46,6 +46,8 @@ pub struct Setup {
     pub tare: TareSetup,
     /// Half of the window in which contacts and phases are told, m; where it is not given, 2 % of the rod, or 200 samples.
     pub half_window: Option<f64>,
+    /// Delay of the clock of a stage's table.
+    pub stage_delay: Option<StageDelay>,
     /// What of a recording is meant.
     pub recording: RecordingSetup,
     /// How large the errors may be that all samples of a scan share; none without the table `errors`.
@@ -78,6 +80,7 @@ impl Default for Setup {
             accuracy: None,
             tare: TareSetup { seconds: 1.0, change: None },
             half_window: None,
+            stage_delay: None,
             recording: RecordingSetup::default(),
             errors: None,
             warnings: Vec::new(),
@@ -87,7 +90,7 @@ impl Default for Setup {
 }
 
 impl Setup {
-    /// The setup in a file with any of the tables `sensor`, `mounting`, `accuracy`, `tare`, `identification`, `recording`, `errors`.
+    /// The setup in a file with any of the tables `sensor`, `mounting`, `accuracy`, `tare`, `identification`, `stage`, `recording`, `errors`.
     ///
     /// # Errors
     /// [`SceneError`]: the file cannot be read, or is no setup.
@@ -121,9 +124,37 @@ impl Setup {
             let calibration = document.sensor.calibration.as_ref().map(|name| directory.join(name.get_ref()));
             Ok((check::setup(&document, &tree, directory)?, calibration))
         };
-        let ((setup, calibration), warnings) =
-            toml_file::parse_angles(file, text, |_| Ok(Quantities::default()), read)?;
+        let ((setup, calibration), warnings) = toml_file::parse_angles(file, text, quantities, read)?;
         let files = std::iter::once(file.to_path_buf()).chain(calibration).collect();
         Ok(Self { warnings, files, ..setup })
+    }
+}
+
+/// Fields that may have a unit.
+fn quantities(table: &Spanned<DeTable<'_>>) -> Result<Quantities, Fault> {
+    let mut quantities = Quantities::default();
+    let delay = table.get_ref().get("stage").and_then(|stage| stage.get_ref().as_table()?.get("delay"));
+    if let Some(delay) = delay
+        && let DeValue::String(text) = delay.get_ref()
+    {
+        quantities.read("delay", text, delay.span(), Dimension::Time).transpose()?;
+    }
+    Ok(quantities)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_delay_of_the_stage_may_have_a_unit() {
+        let read = |text: &str| Setup::parse("s.toml".as_ref(), text).map(|setup| setup.stage_delay);
+        for text in ["[stage]\ndelay = \"-120 ms\"", "[stage]\ndelay = -0.12"] {
+            assert_eq!(read(text).unwrap().unwrap().seconds(), -0.12, "{text}");
+        }
+        assert_eq!(read("").unwrap(), None);
+        let error = read("[stage]\ndelay = \"3 mm\"").unwrap_err().to_string();
+        assert!(error.contains("`mm` is a unit of length, expected one of time: s, ms"), "{error}");
+        assert!(read("[stage]\ndelay = nan").unwrap_err().to_string().contains("expected a finite time"));
     }
 }

@@ -1,6 +1,7 @@
-//! The command lines that read the files, tried by the readers themselves: of `reactions` with poses, of a `sensor` with its stage, of
-//! `frames` of points.
+//! The command lines that read the files, tried by the readers themselves: of `reactions` with poses, of a `sensor` with its stage, whose
+//! clocks `clocks` compares, of `frames` of points.
 
+mod clocks;
 mod frames;
 mod reactions;
 mod sensor;
@@ -28,6 +29,11 @@ pub(super) fn commands(looks: &mut [Look], options: &InspectOptions) -> Vec<Read
     let stages: Vec<usize> = (0..looks.len()).filter(|k| looks[*k].content == Content::Stage).collect();
     let mut used = Vec::new();
     for k in 0..looks.len() {
+        if let Content::Tracked(tracked) = &looks[k].content {
+            let file = rod(options).map_or_else(|| ROD.to_owned(), |rod| rod.file.display().to_string());
+            let found = tracked.commands(&looks[k].path, &file);
+            commands.extend(found.map(|words| ReadCommand { words, setup: None, reads: false }));
+        }
         let found = match looks[k].content {
             Content::Reactions => Some(reactions(&mut looks[k], options)),
             Content::Wrench | Content::Raw | Content::Topic(_) => {
@@ -36,7 +42,7 @@ pub(super) fn commands(looks: &mut [Look], options: &InspectOptions) -> Vec<Read
                 sensor(looks, k, stage, options)
             }
             Content::Frames => Some(frames(&mut looks[k], options)),
-            Content::Stage | Content::Other => None,
+            Content::Stage | Content::Tracked(_) | Content::Other => None,
         };
         commands.extend(found);
     }
@@ -66,7 +72,17 @@ fn scan(options: &InspectOptions, setup: Setup, stage: Option<StageSpec>, read: 
         None => Rod::new(USUAL.0, USUAL.1).ok()?,
     };
     let (budget, known) = (Budget::laboratory(&rod), Known::NOTHING);
-    Some(LiveScan { rod, budget, known, setup, stage, path: None, read, inputs: Vec::new() })
+    Some(LiveScan {
+        rod,
+        budget,
+        known,
+        setup,
+        stage,
+        stage_delay: options.stage_delay,
+        path: None,
+        read,
+        inputs: Vec::new(),
+    })
 }
 
 /// Puts what a reader says into the report.

@@ -1,13 +1,17 @@
 //! The command for a sensor with its stage.
 
+use super::clocks::{CLOCKS, Clocks, stage_delay};
 use super::{is_answered, rod, scan, start, tried};
 use crate::inspect::InspectOptions;
+use crate::inspect::clock::StageLog;
 use crate::inspect::look::{Content, Look};
 use crate::inspect::physics::{Measured, Says, physics};
 use crate::inspect::proposal::{Proposal, name_of};
 use crate::inspect::report::{InspectedFile, Question, ReadCommand};
 use crate::inspect::setup_text::{Components, SetupText};
-use crate::{ReadOptions, Setup, StageSpec};
+use crate::inspect::values::channel;
+use crate::{ReadOptions, Setup, StageDelay, StageSpec};
+use vibrissa::Pose;
 use vibrissa::hw::recording::Role;
 
 /// The stage whose times overlap most with those of a sensor.
@@ -48,7 +52,7 @@ pub(super) fn sensor(
     let mut proposal = looks[k].proposal.clone();
     let (place, spec) = match stage {
         Some(stage) => {
-            times(looks, k, stage);
+            times(looks, k, stage, stage_delay(options));
             proposal = looks[k].proposal.clone();
             let path = looks[stage].path.clone();
             let name = path.display().to_string();
@@ -66,31 +70,31 @@ pub(super) fn sensor(
     let mut of_stage = stage.map(|stage| looks[stage].proposal.clone());
     let is_settled = is_answered(&looks[k].report) && stage.is_none_or(|stage| is_answered(&looks[stage].report));
     let mut reads = false;
+    let clocks = stage.and_then(|stage| Clocks::of(&looks[k], &looks[stage], options));
     if is_settled {
         let given = || options.setup.as_ref().map(|given| given.1.clone());
         let made = |text: &SetupText| Setup::parse("setup.toml".as_ref(), &text.text()).ok();
         let read = combined(&proposal, of_stage.as_ref());
         let first = given().or_else(|| if setup.is_needed() { made(&setup) } else { Some(Setup::default()) });
-        if let Some(found) = first.and_then(|first| scan(options, first, spec.clone(), read.clone())) {
-            let samples = tried(&found, &looks[k].path, &mut looks[k].report);
+        if let Some(mut found) = first.and_then(|first| scan(options, first, spec.clone(), read.clone())) {
+            let columns = stage.and_then(|stage| columns(&looks[stage], options));
+            if let (Some(clocks), Some(columns)) = (&clocks, &columns) {
+                let log = stage.and_then(|stage| stage_log(&looks[stage]));
+                let delay = clocks.compare(&mut looks[k].report, &found, &looks[k].path, log, columns, options);
+                found.stage_delay = StageDelay::new(delay).ok();
+            }
+            let is_asked = !looks[k].report.questions.is_empty();
+            let samples = if is_asked && clocks.as_ref().is_some_and(|clocks| !clocks.overlap()) {
+                None
+            } else {
+                tried(&found, &looks[k].path, &mut looks[k].report)
+            };
             reads = samples.is_some();
             if let Some(samples) = samples.filter(|_| options.setup.is_none())
-                && let Some(stage) = stage
-                && let [Some(x), Some(y), Some(phi)] =
-                    [Role::X0, Role::Y0, Role::Phi0].map(|role| looks[stage].measured(role, options))
+                && let (Some(stage), Some(mut columns)) = (stage, columns)
             {
-                let reaction = |(role, name, unit): (Role, &str, &'static str)| Measured {
-                    role,
-                    name: name.to_owned(),
-                    column: 0,
-                    unit: Some(unit),
-                    is_turned: false,
-                    says: Says::File,
-                };
-                let [fx, fy, mz] =
-                    [(Role::F0x, "-Fx", "N"), (Role::F0y, "-Fy", "N"), (Role::M0z, "-Tz", "N m")].map(reaction);
-                let mut columns = [x, y, phi, fx, fy, mz];
                 columns[..3].iter_mut().for_each(|column| column.name = format!("stage:{}", column.name));
+                let asked = looks[k].report.questions.len();
                 let found = physics(&mut looks[k].report, &samples, &columns, false, rod(options).map(|rod| &rod.rod));
                 if let Some(found) = found {
                     columns[..3].iter_mut().for_each(|column| column.name = column.name.replacen("stage:", "", 1));
@@ -98,17 +102,25 @@ pub(super) fn sensor(
                     found.apply(&mut stage.report, &mut stage.proposal, &columns, &samples, 0..3);
                     of_stage = Some(stage.proposal.clone());
                     setup.frame = Some(found.frame);
+                } else if is_asked {
+                    // wrong poses may be why no frame fits: the clocks first
+                    looks[k].report.questions.truncate(asked);
                 } else {
                     settle_sense(&mut looks[k].report);
                 }
                 reads = is_answered(&looks[k].report);
             }
         }
+    } else if let Some(clocks) = &clocks {
+        clocks.ask_without_physics(&mut looks[k].report, options);
     }
     if options.setup.is_some() {
         setup = SetupText::default();
     }
     let mut words = [start("reconstruct", &looks[k].path, options), vec!["--stage".into(), place]].concat();
+    if let Some(delay) = options.stage_delay.filter(|_| stage.is_some()) {
+        words.extend(["--stage-delay".into(), delay.to_string()]);
+    }
     let is_made = setup.is_needed() || options.write_setup.is_some();
     match (&options.setup, is_made) {
         (Some((file, _)), _) => words.extend(["--setup".into(), file.display().to_string()]),
@@ -123,11 +135,37 @@ pub(super) fn sensor(
     Some(ReadCommand { words, setup: text, reads })
 }
 
+/// The columns of the poses, and the reactions that a sensor in the axes of the scene has.
+fn columns(stage: &Look, options: &InspectOptions) -> Option<[Measured; 6]> {
+    let reaction = |(role, name, unit): (Role, &str, &'static str)| Measured {
+        role,
+        name: name.to_owned(),
+        column: 0,
+        unit: Some(unit),
+        is_turned: false,
+        says: Says::File,
+    };
+    let [x, y, phi] = [Role::X0, Role::Y0, Role::Phi0].map(|role| stage.measured(role, options));
+    let [fx, fy, mz] = [(Role::F0x, "-Fx", "N"), (Role::F0y, "-Fy", "N"), (Role::M0z, "-Tz", "N m")].map(reaction);
+    Some([x?, y?, phi?, fx, fy, mz])
+}
+
+/// The poses of a stage with their times.
+fn stage_log(stage: &Look) -> Option<StageLog> {
+    let (table, guess) = stage.table.as_ref()?;
+    let [t, x, y, phi] = [Role::Time, Role::X0, Role::Y0, Role::Phi0].map(|role| channel(table, guess, role));
+    let (t, x, y, phi) = (t?, x?, y?, phi?);
+    let rows = (0..t.len()).map(|k| (t[k], Pose { x: x[k], y: y[k], phi: phi[k] }));
+    let is_finite = |(t, pose): &(f64, Pose)| [*t, pose.x, pose.y, pose.phi].iter().all(|value| value.is_finite());
+    StageLog::new(rows.filter(is_finite).collect())
+}
+
 /// Asks for the frame of a sensor where the physics does not decide it.
 fn settle_sense(file: &mut InspectedFile) {
     let answer =
         "--setup FILE with axes and sense in [mounting]; --write-setup FILE makes one to begin with".to_owned();
-    let Some(asked) = file.questions.pop() else { return };
+    // that of the clocks is not of the frame
+    let Some(asked) = file.questions.pop_if(|question| !question.text.starts_with(CLOCKS)) else { return };
     let text = format!("along which axes of the scene does the sensor lie, and is it load or reaction? {}", asked.text);
     // options for columns of the sensor would name components; those of the stage are options as they are
     let of_stage = asked.answers.into_iter().filter(|answer| answer.contains("stage:"));
@@ -176,12 +214,16 @@ fn incomplete(look: &mut Look, setup: &mut SetupText) {
 }
 
 /// Compares the times of a sensor and of its stage. Where a unit is not written, it is the one with the longest common part.
-fn times(looks: &mut [Look], sensor: usize, stage: usize) {
+fn times(looks: &mut [Look], sensor: usize, stage: usize, delay: Option<StageDelay>) {
     let units = |k: usize| looks[k].time_units();
     let both = || units(sensor).into_iter().flat_map(|a| units(stage).into_iter().map(move |b| (a, b)));
     let common = |a: &'static str, b: &'static str| {
         let ([first, last], [from, to]) = (looks[sensor].times_in(a)?, looks[stage].times_in(b)?);
-        Some((last.min(to) - first.max(from)) / (last.max(to) - first.min(from)).max(f64::MIN_POSITIVE))
+        let part = |part: f64, of: f64| part / of.max(f64::MIN_POSITIVE);
+        let common = part(last.min(to) - first.max(from), last.max(to) - first.min(from));
+        // clocks that begin at different times: durations that are alike
+        let (long, short) = ((last - first).max(to - from), (last - first).min(to - from));
+        Some(if common > 0.0 { common } else { 0.1 * part(short, long) - 0.1 })
     };
     let rated = both().filter_map(|(a, b)| Some((a, b, common(a, b)?)));
     // the first of those that are alike: the guesses of both, or SI
@@ -191,11 +233,14 @@ fn times(looks: &mut [Look], sensor: usize, stage: usize) {
         looks[stage].set_time_unit(of_stage);
     }
     let (Some([first, last]), Some([from, to])) = (looks[sensor].times(), looks[stage].times()) else { return };
+    let delay = delay.map_or(0.0, StageDelay::seconds);
+    let (from, to) = (from + delay, to + delay);
     let common = (last.min(to) - first.max(from)).max(0.0);
     let part = common / (last - first).max(f64::MIN_POSITIVE);
-    let text = format!("{first:.4} to {last:.4} s, the stage {from:.4} to {to:.4} s: {:.0} % in common", 100.0 * part);
-    looks[sensor].report.fact("times", text.clone());
-    if common <= 0.0 {
-        looks[sensor].report.prevents(None, "time", text, "the times of one clock, or times that begin together");
-    }
+    let delayed = if delay == 0.0 { String::new() } else { format!(", delayed by {delay} s,") };
+    let text = format!(
+        "{first:.4} to {last:.4} s, the stage{delayed} {from:.4} to {to:.4} s: {:.0} % in common",
+        100.0 * part
+    );
+    looks[sensor].report.fact("times", text);
 }

@@ -1,0 +1,312 @@
+//! The delay between the clocks of a sensor and of its stage, by the physics.
+//!
+//! The work of the clamp is the change of the elastic energy (see `agreement`). With the clock of the stage shifted by a delay, the work is
+//! done at other times. It then differs from the change of the energy wherever the clamp starts, stops, turns back or changes its speed while
+//! the rod is in contact. Along a straight line at constant speed the work does not depend on the delay: the object is shifted, and no
+//! contradiction remains.
+
+use super::agreement::energy;
+use super::frame::averages;
+use super::physics::InFrame;
+use vibrissa::rod::Reactions;
+use vibrissa::{Pose, Rod, Sample};
+
+/// Averages over which work and change of the energy are compared, as in `agreement`.
+const LAG: usize = 4;
+/// Smallest concordance of work and energy at which the delay is estimated: that of `frame` for a frame that the work alone supports.
+const WORK: f64 = 0.7;
+/// Decrease of the logarithm of the likelihood at the ends of the interval: half the 95 % quantile of chi squared with one degree of freedom.
+const DECREASE: f64 = 1.92;
+/// Largest share of the squared changes of the energy at times outside the table of the stage, where the clamp is taken to stand. A larger share shows
+/// that the clamp moved there, and the table ends too early for an estimate.
+const OUTSIDE: f64 = 0.05;
+/// Relative error of work and energy that gains, stiffness and length may cause: that of an ordinary laboratory. Smaller: without noise, the error of
+/// the averages decides between delays that are alike; larger: intervals become wider than the noise justifies.
+const RELATIVE: f64 = 0.02;
+/// Delays of a coarse search. More: more time; fewer: a narrow maximum is missed.
+const COARSE: usize = 400;
+/// The same where the clamp turns, and each delay needs all energies anew.
+const COARSE_TURNING: usize = 120;
+/// Standard deviations beyond which a reaction has changed.
+const SIGMAS: f64 = 6.0;
+
+/// The delays of the stage's clock that agree with the physics.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct DelayFound {
+    /// The delay of the largest likelihood, s.
+    pub best: f64,
+    /// Ends of the 95 % interval, s.
+    pub interval: [f64; 2],
+    /// Whether these are bounds by the physics; otherwise the interval ends where the two files have half of the shorter one in common.
+    pub is_bounded: [bool; 2],
+    /// Concordance of work and energy.
+    pub concordance: f64,
+}
+
+/// Poses of the clamp on the stage's clock.
+#[derive(Clone, Debug)]
+pub(super) struct StageLog(Vec<(f64, Pose)>);
+
+impl StageLog {
+    /// Of rows in the order of time; none with fewer than two.
+    pub fn new(rows: Vec<(f64, Pose)>) -> Option<Self> {
+        (rows.len() > 1 && rows.windows(2).all(|pair| pair[0].0 < pair[1].0)).then_some(Self(rows))
+    }
+
+    /// First and last time, s.
+    pub fn span(&self) -> [f64; 2] {
+        [self.0[0].0, self.0[self.0.len() - 1].0]
+    }
+
+    /// The pose at a time; before the first and after the last row the clamp is taken to stand.
+    pub fn at(&self, t: f64) -> Pose {
+        let after = self.0.partition_point(|row| row.0 < t);
+        match (after.checked_sub(1).map(|before| self.0[before]), self.0.get(after)) {
+            (Some((earlier, from)), Some(&(later, to))) => {
+                let share = (t - earlier) / (later - earlier);
+                let between = |from: f64, to: f64| from + share * (to - from);
+                Pose { x: between(from.x, to.x), y: between(from.y, to.y), phi: between(from.phi, to.phi) }
+            }
+            (None, Some(row)) => row.1,
+            (last, None) => last.unwrap_or(self.0[0]).1,
+        }
+    }
+
+    /// When the clamp leaves its first and reaches its last pose, and its largest speed between, over a hundredth of the time, m/s; none if it stands.
+    pub fn motion(&self) -> Option<([f64; 2], f64)> {
+        let distance = |a: &Pose, b: &Pose| (a.x - b.x).hypot(a.y - b.y);
+        let (first, last) = (self.0[0].1, self.0[self.0.len() - 1].1);
+        let size = self.0.iter().map(|row| distance(&row.1, &first)).fold(0.0, f64::max);
+        let turn = self.0.iter().map(|row| (row.1.phi - first.phi).abs()).fold(0.0, f64::max);
+        // a thousandth of the way is more than the resolution of a stage, and less than matters
+        let leaves = |from: &Pose, pose: &Pose| {
+            distance(from, pose) > 1e-3 * size || (pose.phi - from.phi).abs() > 1e-3 * turn.max(f64::MIN_POSITIVE)
+        };
+        let start = self.0.iter().position(|row| leaves(&first, &row.1))?.checked_sub(1)?;
+        let end = (self.0.iter().rposition(|row| leaves(&last, &row.1))? + 1).min(self.0.len() - 1);
+        let [from, to] = self.span();
+        let step = (to - from) / 100.0;
+        let speeds = (0..100).map(|k| {
+            let t = from + f64::from(k) * step;
+            distance(&self.at(t), &self.at(t + step)) / step
+        });
+        Some(([self.0[start].0, self.0[end].0], speeds.fold(0.0, f64::max)))
+    }
+
+    /// In the units and signs of a hypothesis.
+    fn in_frame(&self, frame: &InFrame) -> Self {
+        Self(self.0.iter().map(|(t, pose)| (*t, frame.pose(*pose))).collect())
+    }
+}
+
+/// Reactions with the times of the sensor.
+pub(super) type Timed = (f64, Reactions);
+
+/// Samples with the poses that the stage has if its clock is delayed.
+pub(super) fn joined(sensed: &[Timed], stage: &StageLog, delay: f64) -> Vec<Sample> {
+    sensed.iter().map(|(t, reactions)| Sample::new(stage.at(t - delay), *reactions)).collect()
+}
+
+/// When the reactions first differ from those at the start, and when they last differ from those at the end, s on the sensor's clock.
+pub(super) fn changes(sensed: &[Timed]) -> Option<[f64; 2]> {
+    let (averages, noise) = timed_averages(sensed)?;
+    let differs = |a: &Sample, b: &Sample| {
+        let (a, b) = (a.reactions, b.reactions);
+        [a.f0x - b.f0x, a.f0y - b.f0y, a.m0z - b.m0z]
+            .iter()
+            .zip(noise)
+            .any(|(difference, noise)| difference.abs() > SIGMAS * noise)
+    };
+    let (first, last) = (averages.first()?, averages.last()?);
+    let start = averages.iter().position(|sample| differs(sample, first))?;
+    let end = averages.iter().rposition(|sample| differs(sample, last))?;
+    Some([averages[start].pose.x, averages[end].pose.x])
+}
+
+/// Averages whose x is the time, and their noise.
+fn timed_averages(sensed: &[Timed]) -> Option<(Vec<Sample>, [f64; 3])> {
+    let timed = |(t, reactions): &Timed| Sample::new(Pose { x: *t, y: 0.0, phi: 0.0 }, *reactions);
+    let samples: Vec<Sample> = sensed.iter().map(timed).collect();
+    averages(&samples).map(|(averages, noise, _)| (averages, noise))
+}
+
+/// The delays at which half of the shorter recording is within the other one.
+pub(super) fn range(sensor: [f64; 2], stage: [f64; 2]) -> [f64; 2] {
+    let half = 0.5 * (sensor[1] - sensor[0]).min(stage[1] - stage[0]);
+    [sensor[0] - stage[1] + half, sensor[1] - stage[0] - half]
+}
+
+/// The delays that agree with the physics, in the frame and the units of a hypothesis; none where work and energy agree at no delay.
+pub(super) fn delay(sensed: &[Timed], stage: &StageLog, frame: &InFrame, rod: Option<&Rod>) -> Option<DelayFound> {
+    let (averages, noise) = timed_averages(sensed)?;
+    let [least, most] = range([sensed.first()?.0, sensed.last()?.0], stage.span());
+    let stage = stage.in_frame(frame);
+    let samples: Vec<Sample> =
+        averages.iter().map(|sample| Sample { reactions: frame.reactions(sample.reactions), ..*sample }).collect();
+    let search = Search::new(samples, &stage, frame, frame.noise(noise), rod)?;
+    let count = if search.turns { COARSE_TURNING } else { COARSE };
+    let step = (most - least) / count as f64;
+    let coarse: Vec<(f64, f64)> = (0..=count)
+        .map(|k| {
+            let delay = least + k as f64 * step;
+            (delay, search.misfit(delay).sum)
+        })
+        .collect();
+    let mut best = coarse.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    // golden sections would need one minimum; thirds of the interval around the best are as good as the averages
+    let mut around = step;
+    for _ in 0..6 {
+        let (center, width) = (best.0, around);
+        for k in [-3, -2, -1, 1, 2, 3] {
+            let delay = (center + f64::from(k) * width / 3.0).clamp(least, most);
+            let sum = search.misfit(delay).sum;
+            if sum < best.1 {
+                best = (delay, sum);
+            }
+        }
+        around /= 2.0;
+    }
+    let found = search.misfit(best.0);
+    if found.concordance < WORK || found.outside > OUTSIDE {
+        return None;
+    }
+    // residuals of neighbouring steps share averages
+    let count = search.steps() as f64 / LAG as f64;
+    let floor = RELATIVE.powi(2) * found.changes;
+    let is_plausible = |sum: f64| 0.5 * count * ((sum + floor) / (found.sum + floor)).ln() <= DECREASE;
+    let first = coarse.iter().position(|one| is_plausible(one.1));
+    let last = coarse.iter().rposition(|one| is_plausible(one.1));
+    let end = |inside: f64, outside: f64| {
+        let (mut inside, mut outside) = (inside, outside);
+        for _ in 0..16 {
+            let middle = 0.5 * (inside + outside);
+            if is_plausible(search.misfit(middle).sum) { inside = middle } else { outside = middle }
+        }
+        0.5 * (inside + outside)
+    };
+    let low = first.map_or(best.0, |k| coarse[k].0.min(best.0));
+    let high = last.map_or(best.0, |k| coarse[k].0.max(best.0));
+    let is_bounded = [first != Some(0), last != Some(coarse.len() - 1)];
+    let interval = [
+        if is_bounded[0] { end(low, low - step) } else { least },
+        if is_bounded[1] { end(high, high + step) } else { most },
+    ];
+    Some(DelayFound { best: best.0, interval, is_bounded, concordance: found.concordance })
+}
+
+/// What work and energy are compared with.
+struct Search<'a> {
+    /// Averages; x is the time.
+    samples: Vec<Sample>,
+    contact: Vec<bool>,
+    stage: &'a StageLog,
+    rod: Rod,
+    stiffness: f64,
+    turns: bool,
+    /// Energies where the clamp does not turn.
+    energies: Vec<f64>,
+    /// Change of the energy in a step to which residuals are limited: the 90 % quantile. Snaps lose energy without work.
+    limit: f64,
+}
+
+/// How work and energy differ at a delay.
+#[derive(Clone, Copy)]
+struct Misfit {
+    sum: f64,
+    concordance: f64,
+    /// Sum of the squared changes of the energy, J^2.
+    changes: f64,
+    /// Share of it outside the table of the stage.
+    outside: f64,
+}
+
+impl<'a> Search<'a> {
+    fn new(
+        samples: Vec<Sample>,
+        stage: &'a StageLog,
+        frame: &InFrame,
+        noise: [f64; 2],
+        rod: Option<&Rod>,
+    ) -> Option<Self> {
+        let force = |sample: &Sample| sample.reactions.f0x.hypot(sample.reactions.f0y);
+        let largest = samples.iter().map(force).fold(0.0, f64::max);
+        let touches = |sample: &Sample| {
+            let force = force(sample);
+            force > 1e-6 * largest && (force > 4.0 * noise[0] || sample.reactions.m0z.abs() > 4.0 * noise[1])
+        };
+        let contact: Vec<bool> = samples.iter().map(touches).collect();
+        let stiffness = frame.stiffness();
+        let length = rod.map_or((stiffness / largest).sqrt(), Rod::length);
+        let rod = Rod::new(length, stiffness).ok()?;
+        let phi = stage.0[0].1.phi;
+        let turns = stage.0.iter().any(|row| (row.1.phi - phi).abs() > 1e-4);
+        let mut search = Self { samples, contact, stage, rod, stiffness, turns, energies: Vec::new(), limit: 0.0 };
+        search.energies = search.energies(0.0);
+        let energies = &search.energies;
+        let mut sizes: Vec<f64> =
+            search.pairs().map(|k| (energies[k + LAG] - energies[k]).abs()).filter(|size| *size > 0.0).collect();
+        sizes.sort_unstable_by(f64::total_cmp);
+        search.limit = *sizes.get(sizes.len() * 9 / 10)?;
+        (search.pairs().count() > 4 * LAG).then_some(search)
+    }
+
+    /// Steps in contact, by their first average.
+    fn pairs(&self) -> impl Iterator<Item = usize> {
+        (0..self.samples.len().saturating_sub(LAG)).filter(|k| self.contact[*k] || self.contact[k + LAG])
+    }
+
+    fn steps(&self) -> usize {
+        self.pairs().count()
+    }
+
+    fn energies(&self, delay: f64) -> Vec<f64> {
+        let one = |(sample, contact): (&Sample, &bool)| {
+            let pose = self.stage.at(sample.pose.x - delay);
+            let energy = || energy(&self.rod, &Sample { pose, ..*sample }, self.stiffness);
+            if *contact { energy().unwrap_or(0.0) } else { 0.0 }
+        };
+        self.samples.iter().zip(&self.contact).map(one).collect()
+    }
+
+    fn misfit(&self, delay: f64) -> Misfit {
+        let turning;
+        let energies = if self.turns {
+            turning = self.energies(delay);
+            &turning
+        } else {
+            &self.energies
+        };
+        let poses: Vec<Pose> = self.samples.iter().map(|sample| self.stage.at(sample.pose.x - delay)).collect();
+        let work = |k: usize| {
+            let mean = |of: fn(&Reactions) -> f64| {
+                let one = |k: usize| if self.contact[k] { of(&self.samples[k].reactions) } else { 0.0 };
+                0.5 * (one(k) + one(k + 1))
+            };
+            mean(|r| r.f0x) * (poses[k + 1].x - poses[k].x)
+                + mean(|r| r.f0y) * (poses[k + 1].y - poses[k].y)
+                + mean(|r| r.m0z) * (poses[k + 1].phi - poses[k].phi)
+        };
+        let works: Vec<f64> = (0..self.samples.len().saturating_sub(1)).map(work).collect();
+        let [from, to] = self.stage.span();
+        let (mut sum, mut squares, mut outside, mut changes) = (0.0, 0.0, 0.0, 0.0);
+        for k in self.pairs() {
+            let work: f64 = works[k..k + LAG].iter().sum();
+            let change = energies[k + LAG] - energies[k];
+            let limited = |value: f64| value.clamp(-self.limit, self.limit);
+            sum += limited(work - change).powi(2);
+            squares += limited(work).powi(2) + limited(change).powi(2);
+            changes += limited(change).powi(2);
+            let [start, end] = [k, k + LAG].map(|k| self.samples[k].pose.x - delay);
+            if end < from || start > to {
+                outside += limited(change).powi(2);
+            }
+        }
+        let share = |part: f64, all: f64| if all > 0.0 { part / all } else { 0.0 };
+        Misfit {
+            sum: sum.max(f64::MIN_POSITIVE),
+            concordance: 1.0 - share(sum, squares),
+            changes,
+            outside: share(outside, changes),
+        }
+    }
+}

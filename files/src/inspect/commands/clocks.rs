@@ -1,0 +1,216 @@
+//! Whether the clocks of a sensor and of its stage are one, and the question where that is not known.
+
+use super::rod;
+use crate::inspect::InspectOptions;
+use crate::inspect::clock::{DelayFound, StageLog, Timed, changes, delay, joined, range};
+use crate::inspect::look::Look;
+use crate::inspect::physics::{InFrame, Measured};
+use crate::inspect::report::{InspectedFile, Question};
+use crate::inspect::shell_word::quoted;
+use crate::inspect::values::factor;
+use crate::{LiveScan, StageDelay};
+use std::path::Path;
+use vibrissa::hw::recording::Role;
+
+/// How the question begins.
+pub(super) const CLOCKS: &str = "how are the clocks of the sensor and of the stage related?";
+/// Times beyond this, s, count from 1970, as those of operating systems and robots do: they are dates after 1973. The clocks of two computers may still
+/// differ, which the physics may show.
+const ABSOLUTE: f64 = 1e8;
+/// Shift of the object by an unknown delay, in lengths of the rod, that needs no question: it is about the systematic error of an ordinary laboratory.
+const SHIFT: f64 = 0.01;
+/// Delays, evenly spaced, at which the frame is tried if it fits at none of these. A delay of a tenth of the motion leaves most of the work right.
+const ANYWHERE: usize = 16;
+/// Times to which the best delay is searched anew in the frame that it suggests.
+const ROUNDS: usize = 2;
+
+/// The delay that was stated.
+pub(super) fn stage_delay(options: &InspectOptions) -> Option<StageDelay> {
+    options.stage_delay.or(options.setup.as_ref().and_then(|setup| setup.1.stage_delay))
+}
+
+/// The times of a sensor and of its stage.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clocks {
+    sensor: [f64; 2],
+    stage: [f64; 2],
+    /// The larger step of both, s.
+    step: f64,
+    /// The smaller one.
+    short: f64,
+    /// The delay that was stated, s.
+    stated: Option<f64>,
+}
+
+impl Clocks {
+    /// None where the times of one are not known.
+    pub fn of(sensor: &Look, stage: &Look, options: &InspectOptions) -> Option<Self> {
+        let step = |look: &Look| {
+            let column = look.table.as_ref().and_then(|table| table.1.of(Role::Time));
+            column.map_or(0.0, |column| (factor(column) * column.values.step).abs())
+        };
+        let (step, short) = (step(sensor).max(step(stage)), step(sensor).min(step(stage)));
+        let stated = stage_delay(options).map(StageDelay::seconds);
+        Some(Self { sensor: sensor.times()?, stage: stage.times()?, step, short, stated })
+    }
+
+    /// Whether they have times in common.
+    pub fn overlap(&self) -> bool {
+        let delay = self.stated.unwrap_or(0.0);
+        self.sensor[0] < self.stage[1] + delay && self.stage[0] + delay < self.sensor[1]
+    }
+
+    /// Whether the times show one clock: both begin and end together, as far as their steps allow, or both count from 1970.
+    fn are_one(&self) -> bool {
+        // half a step more for rounding
+        let near = |k: usize, step: f64| (self.sensor[k] - self.stage[k]).abs() <= step + 0.5 * self.short;
+        let is_absolute = self.sensor[0] > ABSOLUTE && self.stage[0] > ABSOLUTE;
+        near(0, 0.0) && near(1, self.step) || is_absolute && self.overlap()
+    }
+
+    /// Asks where the times leave it open.
+    pub fn ask_without_physics(&self, file: &mut InspectedFile, options: &InspectOptions) {
+        if !self.are_one() && stage_delay(options).is_none() {
+            self.ask(file, "The physics can be asked when the other questions are answered.", None);
+        }
+    }
+
+    /// Compares the clocks by times and physics; asks where they leave it open. Returns the delay by which the samples are to be joined for
+    /// other questions, s.
+    pub fn compare(
+        &self,
+        file: &mut InspectedFile,
+        scan: &LiveScan,
+        path: &Path,
+        log: Option<StageLog>,
+        columns: &[Measured; 6],
+        options: &InspectOptions,
+    ) -> f64 {
+        let stated = self.stated.unwrap_or(0.0);
+        let Some(log) = log else { return stated };
+        let Ok(samples) = scan.standing(path, log.at(0.0)) else { return stated };
+        let sensed: Vec<Timed> = samples.iter().map(|sample| (sample.t, sample.reactions)).collect();
+        let found = self.search(&sensed, &log, columns, options);
+        let motion = log.motion();
+        let speed = motion.map_or(0.0, |motion| motion.1);
+        if let (Some((stage, _)), Some(forces)) = (motion, changes(&sensed)) {
+            let [a, b, c, d] = [stage[0], stage[1], forces[0], forces[1]];
+            file.fact(
+                "clocks",
+                format!(
+                    "the stage moves from {a:.3} to {b:.3} s of its clock, the reactions change from {c:.3} to {d:.3} s of the sensor's clock"
+                ),
+            );
+        }
+        let Some(found) = found else {
+            if self.stated.is_none() && !self.are_one() {
+                self.ask(
+                    file,
+                    "Work and elastic energy agree at no delay, so that the physics does not determine it.",
+                    None,
+                );
+            }
+            return stated;
+        };
+        let [least, most] = found.interval;
+        let said = sentence(&found, speed);
+        let size = rod(options).map_or_else(|| way(&log), |rod| rod.rod.length());
+        let farthest = (least - stated).abs().max((most - stated).abs());
+        let is_confirmed = speed * farthest <= SHIFT * size;
+        let is_contradicted = !(least - self.step..=most + self.step).contains(&stated);
+        file.fact("delay of the stage's clock", said.clone());
+        if is_confirmed || self.stated.is_some() || (self.are_one() && !is_contradicted) {
+            return stated;
+        }
+        let is_determined = found.is_bounded == [true; 2] && speed * (most - least) <= 0.1 * size;
+        self.ask(file, &said, is_determined.then_some(&found));
+        if is_determined { found.best } else { stated }
+    }
+
+    /// The delay in the frame that explains the samples best: those of clocks that are one, begin together or end together.
+    fn search(
+        &self,
+        sensed: &[Timed],
+        log: &StageLog,
+        columns: &[Measured; 6],
+        options: &InspectOptions,
+    ) -> Option<DelayFound> {
+        let rod = rod(options).map(|rod| &rod.rod);
+        let is_own = options.setup.is_some();
+        let at = |delay: f64| InFrame::of(&joined(sensed, log, delay), columns, is_own, rod);
+        let mut starts: Vec<f64> = Vec::new();
+        for delay in [self.stated.unwrap_or(0.0), self.sensor[0] - self.stage[0], self.sensor[1] - self.stage[1]] {
+            if starts.iter().all(|known| (known - delay).abs() > self.step) {
+                starts.push(delay);
+            }
+        }
+        let best = |delays: Vec<f64>| delays.into_iter().filter_map(at).max_by(|a, b| a.score().total_cmp(&b.score()));
+        let [least, most] = range(self.sensor, self.stage);
+        let evenly = || (0..=ANYWHERE).map(|k| least + (most - least) * k as f64 / ANYWHERE as f64).collect();
+        let mut frame = best(starts).or_else(|| best(evenly()))?;
+        let mut found = delay(sensed, log, &frame, rod);
+        for _ in 0..ROUNDS {
+            let Some(best) = found.and_then(|found| at(found.best)) else { break };
+            if best.score() <= frame.score() {
+                break;
+            }
+            let again = delay(sensed, log, &best, rod);
+            if again.is_none() {
+                break;
+            }
+            (frame, found) = (best, again);
+        }
+        found
+    }
+
+    fn ask(&self, file: &mut InspectedFile, said: &str, found: Option<&DelayFound>) {
+        let [first, last] = self.sensor;
+        let [from, to] = self.stage;
+        let text = format!(
+            "{CLOCKS} The sensor's times are {first:.4} to {last:.4} s, the stage's {from:.4} to {to:.4} s. {said} --stage-delay TIME is added to the \
+             times of the stage"
+        );
+        let mut delays: Vec<(f64, String)> = Vec::new();
+        let mut answer = |delay: f64, why: &str| {
+            if delays.iter().all(|known| (known.0 - delay).abs() > self.step) {
+                let value = format!("{} s", rounded(delay));
+                delays.push((delay, format!("--stage-delay {} ({why})", quoted(&value))));
+            }
+        };
+        if let Some(found) = found {
+            answer(found.best, "by the physics");
+        }
+        if self.overlap() {
+            answer(0.0, "both have one clock");
+        }
+        answer(first - from, "both files begin at the same moment");
+        answer(last - to, "both files end at the same moment");
+        file.questions.push(Question { text, answers: delays.into_iter().map(|delay| delay.1).collect() });
+    }
+}
+
+/// Rounded to 0.1 ms.
+fn rounded(seconds: f64) -> f64 {
+    let rounded = (1e4 * seconds).round() / 1e4;
+    if rounded == 0.0 { 0.0 } else { rounded }
+}
+
+/// Size of the path, m.
+fn way(log: &StageLog) -> f64 {
+    let [from, to] = log.span();
+    log.motion().map_or(0.0, |motion| motion.1 * (to - from))
+}
+
+fn sentence(found: &DelayFound, speed: f64) -> String {
+    let [least, most] = found.interval;
+    let shift = 1e3 * speed * (most - least);
+    let range = format!("{least:.4} to {most:.4} s");
+    let effect = format!("within this range the object is shifted by up to {shift:.2} mm");
+    let by = format!("concordance of work and elastic energy {:+.2}", found.concordance);
+    match found.is_bounded {
+        [true, true] => format!("The physics fits a delay of {:.4} s (95 %: {range}; {effect}; {by}).", found.best),
+        [false, false] => format!("The physics does not determine the delay: {range} fit ({effect}; {by})."),
+        [false, true] => format!("The physics gives only an upper bound of the delay: {range} fit ({effect}; {by})."),
+        [true, false] => format!("The physics gives only a lower bound of the delay: {range} fit ({effect}; {by})."),
+    }
+}
