@@ -3,7 +3,7 @@
 //! `cargo bench --bench instructions` prints them beside the kept ones and fails where one has grown by more than 5 %;
 //! `-- --keep` keeps them. Another compiler, or a processor with other instructions, for which the mathematics of the system has
 //! other code, counts otherwise: then nothing is compared. Each work is run a few and many times by this very program: the difference is the work itself,
-//! without what comes before it.
+//! without what comes before it. Works are counted at the same time, one on each processor: they do not see each other.
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::panic, reason = "a bench may, and it is there to be read")]
 
 mod measure;
@@ -14,6 +14,7 @@ use measure::solves::{self, PHASES};
 use measure::waves::{self, Kind};
 use measure::{kernel, segments, verdict};
 use nalgebra::Matrix3;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::hint::black_box;
@@ -248,7 +249,8 @@ fn works() -> Vec<Work> {
     }));
     for (errors, budget) in ERRORS {
         for mu in FRICTIONS {
-            works.push(Work::new(reconstruction(errors, mu), [1, 2], reconstructed(budget, mu)));
+            // long enough for what only the first one does to be nothing beside it
+            works.push(Work::new(reconstruction(errors, mu), [0, 1], reconstructed(budget, mu)));
         }
     }
     works
@@ -272,8 +274,7 @@ fn instructions(index: usize, times: usize) -> Result<(f64, usize), String> {
 }
 
 /// Instructions a unit of work.
-fn count(index: usize, work: &Work) -> Result<f64, String> {
-    let [few, many] = work.times;
+fn count(index: usize, [few, many]: [usize; 2]) -> Result<f64, String> {
     let ((least, units), (most, more)) = (instructions(index, few)?, instructions(index, many)?);
     Ok((most - least) / (more - units) as f64)
 }
@@ -316,9 +317,12 @@ fn main() -> ExitCode {
     let mut text = format!("# {circumstances}\nwork,instructions\n");
     let mut counts = BTreeMap::new();
     let mut grown = 0;
+    let times: Vec<[usize; 2]> = works.iter().map(|work| work.times).collect();
+    let counted: Vec<Result<f64, String>> =
+        times.into_par_iter().enumerate().map(|(index, times)| count(index, times)).collect();
     println!("{:>12} {:>12} {:>8}", "instructions", "kept", "ratio");
-    for (index, work) in works.iter().enumerate() {
-        let count = match count(index, work) {
+    for (work, counted) in works.iter().zip(counted) {
+        let count = match counted {
             Ok(count) => count,
             Err(what) => {
                 println!("{}: {what}", work.name);
