@@ -23,7 +23,7 @@ pub enum PlanError {
     /// A grid without scans.
     #[error("{what} is empty, expected one value at least")]
     Empty {
-        /// `distances` or `angles`.
+        /// `distances`, `angles` or `candidates`.
         what: &'static str,
     },
     /// An object that goes on for ever against the direction of the rod.
@@ -45,6 +45,9 @@ pub enum PlanError {
         /// The object, from 1.
         object: usize,
     },
+    /// No point of the contour is known from which a hypothesis could go on.
+    #[error("no point of the contour is touched or bounded, expected a reconstruction with a fitted contour")]
+    NothingKnown,
     /// A step or a path that is none.
     #[error(transparent)]
     Sweep(#[from] ContactError),

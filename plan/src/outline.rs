@@ -97,16 +97,25 @@ impl Outline {
                 let piece = object.find(StretchKind::Piece(contact.piece))?;
                 self.knots.iter().rfind(|knot| knot.stretch == piece).map(|knot| knot.arc_length)
             }
-            _ => {
-                let stretch = object.find(StretchKind::Piece(contact.piece))?;
-                let first = self.knots.partition_point(|knot| knot.stretch < stretch);
-                let knots = &self.knots[first..self.knots.partition_point(|knot| knot.stretch <= stretch)];
-                let window = Range { from: knots.first()?.t, to: knots.last()?.t };
-                let t = object.own_closest_in(stretch, window, contact.x, contact.y).t;
-                let before = knots.partition_point(|knot| knot.t <= t).max(1) - 1;
-                Some(knots[before].arc_length + length(object, stretch, knots[before].t, t))
-            }
+            _ => self.nearest_on(object, contact.piece, contact.x, contact.y).map(|(place, _)| place),
         }
+    }
+
+    /// The arc length (m) of the place nearest to a point.
+    pub fn nearest(&self, object: &Composite, x: f64, y: f64) -> Option<f64> {
+        let pieces = (0..object.pieces()).filter_map(|piece| self.nearest_on(object, piece, x, y));
+        pieces.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(place, _)| place)
+    }
+
+    /// The arc length (m) of the place of a piece nearest to a point, and the distance.
+    fn nearest_on(&self, object: &Composite, piece: usize, x: f64, y: f64) -> Option<(f64, f64)> {
+        let stretch = object.find(StretchKind::Piece(piece))?;
+        let first = self.knots.partition_point(|knot| knot.stretch < stretch);
+        let knots = &self.knots[first..self.knots.partition_point(|knot| knot.stretch <= stretch)];
+        let window = Range { from: knots.first()?.t, to: knots.last()?.t };
+        let closest = object.own_closest_in(stretch, window, x, y);
+        let before = knots.partition_point(|knot| knot.t <= closest.t).max(1) - 1;
+        Some((knots[before].arc_length + length(object, stretch, knots[before].t, closest.t), closest.gap.abs()))
     }
 
     /// Points along it and beyond neither end, with their arc lengths (m): so close together that a chord turns by a degree or two.

@@ -1,17 +1,14 @@
 //! What of an object the scans of a grid of distances and angles touch.
 
 use crate::scan::{Pass, StraightScan};
+use crate::scanned;
 use crate::support::{HalfPlane, along, nearest, outline};
-use crate::touched::{Touched, Trail};
-use crate::{Outline, PlanError};
+use crate::{Outline, PlanError, Scanned, Touched};
 use rayon::prelude::*;
-use rod_contact::{ContactError, Event, EventKind, Item, State, Stop, Sweep};
+use rod_contact::ContactError;
 use rod_contours::Composite;
 use rod_core::PhysicalRod;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Distance of the states of a sweep, rod lengths. Smaller: slower; the ends of what is touched are exact all the same.
-const STEP: f64 = 0.01;
 
 /// The scans that are tried: all distances at all angles, each with passes to both sides.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +24,7 @@ pub struct ReachGrid {
 impl ReachGrid {
     /// No scans yet, with states every hundredth of the rod's length.
     pub fn of<R: PhysicalRod>(rod: &R) -> Self {
-        Self { distances: Vec::new(), angles: Vec::new(), step: STEP * rod.units().length }
+        Self { distances: Vec::new(), angles: Vec::new(), step: scanned::STEP * rod.units().length }
     }
 
     /// The scans: for each angle and distance a pass to the left and one to the right.
@@ -39,7 +36,7 @@ impl ReachGrid {
         self.angles.iter().copied().flat_map(at)
     }
 
-    fn check<R: PhysicalRod>(&self, rod: &R) -> Result<(), PlanError> {
+    pub(crate) fn check<R: PhysicalRod>(&self, rod: &R) -> Result<(), PlanError> {
         let length = rod.units().length;
         for (what, values) in [("distances", &self.distances), ("angles", &self.angles)] {
             if values.is_empty() {
@@ -64,16 +61,8 @@ impl ReachGrid {
 pub struct ScanReach {
     /// The scan.
     pub scan: StraightScan,
-    /// What it touches of each object.
-    pub touched: Touched,
-    /// Jumps of the rod to another equilibrium in contact.
-    pub snaps: usize,
-    /// Largest bending stress at the surface of the rod over the states, Pa; none where its diameter is not known.
-    pub largest_stress: Option<f64>,
-    /// Largest moment at the clamp over the states, N m.
-    pub largest_moment: f64,
-    /// Why the sweep stopped early, if it did: what it would touch after that is not known.
-    pub stop: Option<Stop>,
+    /// What came of it.
+    pub found: Scanned,
 }
 
 /// What all scans of a grid touch.
@@ -89,7 +78,7 @@ impl Reach {
     /// What any of the scans touches.
     pub fn union(&self) -> Touched {
         let mut union = Touched::nothing(self.outlines.len());
-        self.scans.iter().for_each(|scan| union.extend(&scan.touched));
+        self.scans.iter().for_each(|scan| union.extend(&scan.found.touched));
         union
     }
 
@@ -163,44 +152,5 @@ fn scan_reach<R: PhysicalRod>(
     let within = places.filter(|(_, frame)| along(scan.angle, *frame) <= limit).map(|(_, frame)| along(left, frame));
     let across = within.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| (ends.0.min(place), ends.1.max(place)));
     let path = scan.path(near, across, rod.units().length)?;
-    let mut found = ScanReach {
-        scan,
-        touched: Touched::default(),
-        snaps: 0,
-        largest_stress: None,
-        largest_moment: 0.0,
-        stop: None,
-    };
-    let mut trail = Trail::default();
-    for item in Sweep::new(rod, objects, path, step)? {
-        match item {
-            Ok(Item::State(state)) => {
-                found.load(&state);
-                trail.state(state);
-            }
-            Ok(Item::Event(event)) => {
-                found.pass(&event);
-                trail.event(event);
-            }
-            Err(stop) => found.stop = Some(stop),
-        }
-    }
-    found.touched = Touched::of(&trail, rod, objects, outlines);
-    Ok(found)
-}
-
-impl ScanReach {
-    fn pass(&mut self, event: &Event) {
-        self.snaps += usize::from(event.kind == EventKind::Snap);
-        self.load(&event.before);
-        self.load(&event.after);
-    }
-
-    fn load(&mut self, state: &State) {
-        self.largest_moment = self.largest_moment.max(state.reactions.m0z.abs());
-        self.largest_stress = match (self.largest_stress, state.max_stress) {
-            (Some(one), Some(other)) => Some(one.max(other)),
-            (one, other) => one.or(other),
-        };
-    }
+    Ok(ScanReach { scan, found: Scanned::of(rod, objects, outlines, path, step)?.0 })
 }

@@ -35,7 +35,7 @@ fn of_a_circle_the_near_half_is_touched_as_high_as_the_rod_ends() {
         for angle in [FRAC_PI_2, 0.3, -2.0] {
             let object = circle(radius);
             let reach = found(&object, &[distance], &[angle], 0.01);
-            assert!(reach.scans.iter().all(|scan| scan.stop.is_none()), "{radius} {distance} {angle}");
+            assert!(reach.scans.iter().all(|scan| scan.found.stop.is_none()), "{radius} {distance} {angle}");
             let height: f64 = (1.0_f64 - distance).min(radius);
             let free_side = 2.0 * radius * (1.0 - height / radius).acos();
             let union = reach.union();
@@ -64,7 +64,7 @@ fn dense_samples_of_o1_fill_the_same_intervals() {
                 hits[usize::from(state.contacts.len() > 1)].push(arc_of(contact));
             }
         }
-        for (hits, set) in hits.iter_mut().zip([&scan.touched.single[0], &scan.touched.several[0]]) {
+        for (hits, set) in hits.iter_mut().zip([&scan.found.touched.single[0], &scan.found.touched.several[0]]) {
             let start = arc_length(0.0, -((1.0 - distance) / 5.0_f64).sqrt());
             hits.iter_mut().for_each(|hit| *hit -= start);
             hits.sort_by(f64::total_cmp);
@@ -84,11 +84,11 @@ fn dense_samples_of_o1_fill_the_same_intervals() {
         }
         // the first touch: the tip of the straight rod on the right parabola
         let touch = outline.length();
-        assert!(scan.touched.single[0].contains(touch - 1e-9), "{distance}");
-        assert!(scan.touched.several[0].parts().len() >= phases, "{distance}: {:?}", scan.touched.several);
+        assert!(scan.found.touched.single[0].contains(touch - 1e-9), "{distance}");
+        assert!(scan.found.touched.several[0].parts().len() >= phases, "{distance}: {:?}", scan.found.touched.several);
         // the notch itself is never touched, from none of the distances
         let notch = arc_length(0.0, 0.15) - arc_length(0.0, -((1.0 - distance) / 5.0_f64).sqrt());
-        assert!(!scan.touched.all(0).contains(notch), "{distance}");
+        assert!(!scan.found.touched.all(0).contains(notch), "{distance}");
     }
 }
 
@@ -110,8 +110,8 @@ fn the_ends_of_what_is_touched_do_not_depend_on_the_step() {
     let [coarse, fine] = [0.02, 0.001].map(|step| found(&object, &[0.15, 0.3, 0.45, 0.6, 0.75], &[FRAC_PI_2], step));
     for (coarse, fine) in coarse.scans.iter().zip(&fine.scans) {
         for (coarse, fine) in [
-            (&coarse.touched.single[0], &fine.touched.single[0]),
-            (&coarse.touched.several[0], &fine.touched.several[0]),
+            (&coarse.found.touched.single[0], &fine.found.touched.single[0]),
+            (&coarse.found.touched.several[0], &fine.found.touched.several[0]),
         ] {
             assert_eq!(coarse.parts().len(), fine.parts().len(), "{coarse:?} {fine:?}");
             for (one, other) in coarse.parts().iter().zip(fine.parts()) {
@@ -128,8 +128,8 @@ fn passes_of_a_symmetric_object_mirror_each_other() {
     let length = reach.outlines[0].length();
     for pair in reach.scans.chunks(2) {
         let mut mirrored = IntervalSet::default();
-        pair[0].touched.all(0).parts().iter().for_each(|(from, to)| mirrored.insert(length - to, length - from));
-        let other = pair[1].touched.all(0);
+        pair[0].found.touched.all(0).parts().iter().for_each(|(from, to)| mirrored.insert(length - to, length - from));
+        let other = pair[1].found.touched.all(0);
         assert_eq!(mirrored.parts().len(), other.parts().len());
         for (one, other) in mirrored.parts().iter().zip(other.parts()) {
             assert!((one.0 - other.0).abs().max((one.1 - other.1).abs()) < 1e-8);
