@@ -42,6 +42,9 @@ pub mod scene_files {}
 #[doc = include_str!("../docs/studies.md")]
 pub mod studies {}
 
+#[doc = include_str!("../docs/plan.md")]
+pub mod plan {}
+
 #[doc = include_str!("../docs/limit-distance.md")]
 pub mod limit_distance {}
 

@@ -10,6 +10,9 @@ pub use rod_core as rod;
 #[cfg(feature = "hw")]
 #[doc(inline)]
 pub use rod_hw as hw;
+#[cfg(feature = "plan")]
+#[doc(inline)]
+pub use rod_plan as plan;
 #[cfg(feature = "reconstruct")]
 #[doc(inline)]
 pub use rod_reconstruct as reconstruct;

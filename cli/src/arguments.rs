@@ -3,7 +3,8 @@
 use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::guide;
 use crate::recording_arguments::{Moved, Written};
-use crate::values::{degrees, directory, friction, no_quiet, not_negative, number, positive, seed};
+use crate::values::Values;
+use crate::values::{degrees, directory, friction, no_quiet, not_negative, number, positive, seed, values};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use rod_files::{SensorAddress, Speed, StageDelay, Whisker};
@@ -74,6 +75,21 @@ Sweep a scene with some of its numbers changed, in all combinations, on all core
 Writes rows.csv: for each scene its parameters, phases, snaps, way with several contacts, error of single-contact points there, share of
 the contour that is touched, largest moment, or the reason why there is no sweep. An interrupted run continues when it is
 started again.";
+
+const PLAN: &str = "\
+Choose the next scans of an object by what a reconstruction knows of it: expected new contour, precision, time and stress.
+
+Objects that agree with the fitted contour are drawn, and straight scans at all distances and angles are swept past each of them, without
+friction. Scans are taken one after the other, each time the one that adds most to the length of the touched contour. Together they touch at
+least 63 % of what the best scans would. A scan whose clamp runs into one of the drawn objects, or that exceeds --stress, is not taken. Writes
+candidates.csv, the most promising first, plan.json and plan.svg.";
+
+const REACH: &str = "\
+Find which parts of the objects of a scene straight scans touch with one contact, with several, or never, on all cores.
+
+Sweeps the rod on straight lines across its direction, at all distances and angles, to both sides, without friction. Rod and objects are
+those of the scene; its path only gives the angle. Writes scans.csv (what each scan touches, its largest moment and stress), outline.csv (the
+parts of the outlines, and how they are touched), reach.json and reach.svg.";
 
 const LIVE: &str = "\
 Read a sensor, and print contact points and phases during the scan.
@@ -178,6 +194,12 @@ pub enum Command {
         #[arg(long, value_name = "N", visible_alias = "threads", allow_negative_numbers = true, value_parser = number)]
         jobs: Option<usize>,
     },
+    /// Find which parts of the objects of a scene straight scans touch with one contact, with several, or never, on all cores
+    #[command(long_about = REACH, after_help = guide::REACH)]
+    Reach(ReachArguments),
+    /// Choose the next scans of an object by what a reconstruction knows of it: expected new contour, precision, time and stress
+    #[command(long_about = PLAN, after_help = guide::PLAN)]
+    Plan(PlanArguments),
     /// Run the nine scans of Merker et al. (2020) and compare their phases with the paper's
     #[command(after_help = guide::PAPER)]
     Paper {
@@ -197,6 +219,70 @@ pub enum Command {
         /// The command
         command: Option<String>,
     },
+}
+
+/// The next scans.
+#[derive(Debug, Args)]
+pub struct PlanArguments {
+    /// Directory of `vibrissa reconstruct`, with the fitted contour (fitted.csv)
+    pub result: PathBuf,
+    /// The rod, a TOML file with the table [rod] of a scene, or a scene
+    #[arg(long, value_name = "FILE")]
+    pub rod: PathBuf,
+    /// Distances of the clamp's path from the object, m: from:to:count, or several with commas between them [default: 0.2 to 0.8 lengths of
+    /// the rod, 5 of them]
+    #[arg(long, value_name = "METRES", value_parser = values, allow_hyphen_values = true)]
+    pub distances: Option<Values>,
+    /// Directions of the rod at its clamp, degrees, in the same form [default: 24 all around]
+    #[arg(long, value_name = "DEGREES", value_parser = values, allow_hyphen_values = true)]
+    pub angles: Option<Values>,
+    /// Most scans to choose
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = number, allow_negative_numbers = true)]
+    pub scans: usize,
+    /// Largest bending stress that the rod bears, Pa [default: any]
+    #[arg(long, value_name = "PA", value_parser = positive, allow_negative_numbers = true)]
+    pub stress: Option<f64>,
+    /// The noise of the sensor, a TOML file as for `simulate`: predicts standard deviations
+    #[arg(long, value_name = "FILE")]
+    pub noise: Option<PathBuf>,
+    /// Samples in a second
+    #[arg(long, value_name = "HZ", value_parser = positive, default_value_t = 500.0, allow_negative_numbers = true)]
+    pub rate: f64,
+    /// Speed of the clamp, m/s
+    #[arg(long, value_name = "SPEED", value_parser = positive, default_value_t = 1e-3, allow_negative_numbers = true)]
+    pub speed: f64,
+    /// Objects that are drawn: more take longer, and give more accurate expectations
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = number, allow_negative_numbers = true)]
+    pub hypotheses: usize,
+    /// Seed of the draws: the same one gives the same plan
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = seed)]
+    pub seed: u64,
+    /// Directory of the results [default: out/plan]
+    #[arg(long, value_name = "DIR", default_value = "out/plan", value_parser = directory)]
+    pub out: PathBuf,
+    /// Number of threads [default: one for each core]
+    #[arg(long, value_name = "N", visible_alias = "threads", allow_negative_numbers = true, value_parser = number)]
+    pub jobs: Option<usize>,
+}
+
+/// Scans to be tried.
+#[derive(Debug, Args)]
+pub struct ReachArguments {
+    /// The scene, a TOML file
+    pub scene: PathBuf,
+    /// Distances of the clamp's path from the object's nearest point along the rod, m: from:to:count, or several with commas between them
+    /// [default: 0.1 to 0.9 lengths of the rod, 33 of them]
+    #[arg(long, value_name = "METRES", value_parser = values, allow_hyphen_values = true)]
+    pub distances: Option<Values>,
+    /// Directions of the rod at its clamp, degrees, in the same form [default: that of the scene]
+    #[arg(long, value_name = "DEGREES", value_parser = values, allow_hyphen_values = true)]
+    pub angles: Option<Values>,
+    /// Directory of the results [default: out/<name of the scene>]
+    #[arg(long, value_name = "DIR", value_parser = directory)]
+    pub out: Option<PathBuf>,
+    /// Number of threads [default: one for each core]
+    #[arg(long, value_name = "N", visible_alias = "threads", allow_negative_numbers = true, value_parser = number)]
+    pub jobs: Option<usize>,
 }
 
 /// Which scene `init` writes.

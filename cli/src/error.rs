@@ -1,11 +1,12 @@
 //! Why a command fails.
 
 use rod_files::{
-    FilmError, LiveError, OutputError, ProfileError, ReconstructionError, RecordingError, SceneError, SimulationError,
-    StudyError, TruthError, quoted,
+    FilmError, LiveError, OutputError, PlanFileError, ProfileError, ReconstructionError, RecordingError, SceneError,
+    SimulationError, StudyError, TruthError, quoted,
 };
 use vibrissa::contact::ContactError;
 use vibrissa::hw::recording::{TableError, TableProblem};
+use vibrissa::plan::PlanError;
 use vibrissa_cli::{BudgetError, CalibrateError, FakeError, PaperError, WriteError};
 
 /// An option that the rod or the scene does not allow.
@@ -48,6 +49,10 @@ pub enum Error {
     Calibrate(#[from] CalibrateError),
     #[error(transparent)]
     Study(#[from] StudyError),
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    #[error(transparent)]
+    PlanFile(#[from] PlanFileError),
     #[error(transparent)]
     #[diagnostic(transparent)]
     Paper(#[from] PaperError),
@@ -101,7 +106,7 @@ impl Error {
     /// Whether the value of an option is wrong, as opposed to a file or a device.
     pub fn is_of_options(&self) -> bool {
         match self {
-            Self::Contour(_) | Self::Option(_) | Self::Film(FilmError::NoSensor { .. }) => true,
+            Self::Contour(_) | Self::Plan(_) | Self::Option(_) | Self::Film(FilmError::NoSensor { .. }) => true,
             Self::Simulate(error)
             | Self::FakeSensor(FakeError::Simulation(error))
             | Self::Budget(BudgetError::Simulation(error))

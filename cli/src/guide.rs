@@ -9,7 +9,7 @@ Then open out/scene/sweep.svg in a browser, change the scene and sweep again. `v
 Exit status: 0 done, 1 an error, 2 a sweep that stopped early or does not give the paper's phases, a recording \
 that does not fit its rod or its units, recordings that contradict each other, a sensor that does not suit the rod or fell silent, wrong options, 130 interrupted with Ctrl-C (143 \
 with SIGTERM). Interrupted, sweep, simulate and paper write what they have and mark it as incomplete, reconstruct, calibrate, \
-budget and contour write nothing; live and fake-sensor end as usual. A second time ends any of them at once.
+budget, contour, plan and reach write nothing; live and fake-sensor end as usual. A second time ends any of them at once.
 
 No command replaces a link, a device or one of its own inputs.";
 
@@ -50,6 +50,20 @@ Examples:
   vibrissa contour scene.toml --object 1 --file - > object.csv
 
 Next: open contour.svg, see whether the outline is what you mean, then `vibrissa sweep` the scene.";
+
+pub const PLAN: &str = "\
+Example:
+  vibrissa reconstruct recording.csv --rod scene.toml --out result
+  vibrissa plan result --rod scene.toml --noise noise.toml --stress 8e8 --out next
+
+Next: open plan.svg in a browser, make the first scan of plan.json, and reconstruct both recordings together.";
+
+pub const REACH: &str = "\
+Examples:
+  vibrissa reach scene.toml
+  vibrissa reach scene.toml --distances 0.02:0.08:25 --angles 0:350:36
+
+Next: open reach.svg in a browser. A part that is never touched needs another rod or a scan that is not straight.";
 
 pub const SHAPES: &str = "\
 Example:

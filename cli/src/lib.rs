@@ -26,5 +26,7 @@ pub use init::FirstScene;
 pub use inspect_text::inspection_text;
 pub use merged::Merged;
 pub use paper::{Paper, PaperError, PaperScan};
-pub use results::{WriteError, write_elastica, write_film, write_profiles, write_reconstruction, write_sweep};
+pub use results::{
+    WriteError, write_elastica, write_film, write_plan, write_profiles, write_reach, write_reconstruction, write_sweep,
+};
 pub use shapes::shapes_list;

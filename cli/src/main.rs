@@ -7,6 +7,7 @@ mod error;
 mod film;
 mod guide;
 mod inspection;
+mod planning;
 mod progress;
 mod reconstruction;
 mod recording_arguments;
@@ -66,6 +67,8 @@ fn main() -> ExitCode {
         Command::Live(arguments) => live(arguments),
         Command::FakeSensor(arguments) => fake_sensor(arguments),
         Command::Study { study, out, scene, jobs } => run_study(&study, out, scene, jobs),
+        Command::Plan(arguments) => planning::plan(arguments),
+        Command::Reach(arguments) => planning::reach(arguments),
         Command::Paper { out } => paper(&out),
     };
     result.unwrap_or_else(|error| match error.of_output() {

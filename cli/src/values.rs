@@ -48,6 +48,36 @@ pub fn friction(text: &str) -> Result<Friction, String> {
     }
 }
 
+/// Several numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Values(pub Vec<f64>);
+
+/// Most numbers of an option: each is a scan of milliseconds at least.
+const MOST_VALUES: usize = 100_000;
+
+/// Numbers with commas between them, or evenly spread ones as from:to:count.
+pub fn values(text: &str) -> Result<Values, String> {
+    let number = |text: &str| text.trim().parse().ok().filter(|number: &f64| number.is_finite());
+    let parts: Vec<&str> = text.split(':').collect();
+    let values = match parts[..] {
+        [from, to, count] => {
+            let count = count.trim().parse().ok().filter(|count| (2..=MOST_VALUES).contains(count));
+            number(from).zip(number(to)).zip(count).map(|((from, to), count)| {
+                let share = |k: usize| k as f64 / (count - 1) as f64;
+                (0..count).map(|k| from * (1.0 - share(k)) + to * share(k)).collect()
+            })
+        }
+        [list] => list.split(',').map(number).collect(),
+        _ => None,
+    };
+    let expected = || {
+        format!(
+            "expected from:to:count, two numbers and 2 to {MOST_VALUES}, or finite numbers with commas between them"
+        )
+    };
+    values.map(Values).ok_or_else(expected)
+}
+
 /// An angle.
 pub fn degrees(text: &str) -> Result<f64, String> {
     let angle = text.parse().ok().filter(|angle: &f64| angle.is_finite());
@@ -88,4 +118,19 @@ pub fn meaning(text: &str) -> Result<Meaning, String> {
         format!("`{name}` means nothing, expected x0, y0, phi0, f0x, f0y, m0z, t or another name of docs/recordings.md")
     })?;
     Ok(Meaning { role, column: column.to_owned(), of_stage })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_a_list_or_evenly_spread() {
+        assert_eq!(values("0.1:0.3:3"), Ok(Values(vec![0.1, 0.2, 0.3])));
+        assert_eq!(values("90, -30"), Ok(Values(vec![90.0, -30.0])));
+        assert_eq!(values("5"), Ok(Values(vec![5.0])));
+        for wrong in ["", "1:2", "1:2:1", "1:2:3:4", "1,,2", "nan", "1:inf:3", "1:2:2.5"] {
+            assert!(values(wrong).is_err_and(|why| why.starts_with("expected from:to:count")), "{wrong}");
+        }
+    }
 }

@@ -15,7 +15,9 @@ mod interval;
 mod live;
 mod noise_file;
 pub mod output;
+mod planned;
 mod profile;
+mod reached;
 mod reconstructed;
 mod recording;
 mod report;
@@ -45,7 +47,9 @@ pub use live::{
 };
 pub use noise_file::read_noise;
 pub use output::{OutputError, Staged};
+pub use planned::{PlanFileError, PlanRequest, Planned, measurement, read_known_contours};
 pub use profile::{Profile, ProfileError, ProfilePoint, write_profile_table};
+pub use reached::{OutlinePart, Reached, Touch};
 pub use reconstructed::{
     CONTOUR_COLUMNS, Comparison, FittedPoint, Reconstructed, ReconstructionError, Transition, TruthError,
     confounders_text, naive_touch,

@@ -1,7 +1,9 @@
 //! The files of results with their figures.
 
 use crate::figure::{self, FigureError};
-use rod_files::{ElasticaRun, FilmForces, OutputError, Profile, Reconstructed, Scan, Staged, write_profile_table};
+use rod_files::{
+    ElasticaRun, FilmForces, OutputError, Planned, Profile, Reached, Reconstructed, Scan, Staged, write_profile_table,
+};
 use std::path::{Path, PathBuf};
 
 /// Why results cannot be written.
@@ -91,5 +93,27 @@ pub fn write_elastica(run: &ElasticaRun, staged: &Staged) -> Result<(), WriteErr
     let figure = figure::equilibria(run)?;
     run.write(staged)?;
     staged.write(Path::new("elastica.svg"), |file| file.write_all(figure.as_bytes()))?;
+    Ok(())
+}
+
+/// Writes scans.csv, outline.csv, reach.json and reach.svg into the staged directory.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write_reach(found: &Reached, staged: &Staged) -> Result<(), WriteError> {
+    let figure = figure::reach(found)?;
+    found.write(staged)?;
+    staged.write(Path::new("reach.svg"), |file| file.write_all(figure.as_bytes()))?;
+    Ok(())
+}
+
+/// Writes candidates.csv, plan.json and plan.svg into the staged directory.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write_plan(found: &Planned, staged: &Staged) -> Result<(), WriteError> {
+    let figure = figure::plan(found)?;
+    found.write(staged)?;
+    staged.write(Path::new("plan.svg"), |file| file.write_all(figure.as_bytes()))?;
     Ok(())
 }

@@ -245,6 +245,17 @@ impl Scene {
         poses
     }
 
+    /// Refuses friction. `instead` ends the message: what the user may do with it.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] at the field `contact.friction`.
+    pub fn check_no_friction(&self, instead: &str) -> Result<(), SceneError> {
+        match self.friction {
+            Some(_) => Err(self.source.error("contact.friction", &format!("friction, expected none; {instead}"))),
+            None => Ok(()),
+        }
+    }
+
     /// Refuses a path of several legs.
     ///
     /// # Errors

@@ -101,7 +101,7 @@ impl AtiFile {
         let calibrations = calibrations?;
         if calibrations.is_empty() {
             let found = "`FTSensor` has no `Calibration`".to_owned();
-            return Err(AtiFileError::Element { line: root.line(), found, expected: "one at least" });
+            return Err(AtiFileError::Element { line: root.line(), found, expected: "at least one" });
         }
         Ok(Self { serial: root.text("Serial")?, calibrations })
     }

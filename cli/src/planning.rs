@@ -1,0 +1,92 @@
+//! The commands about which scans to make: `reach` and `plan`.
+
+use crate::arguments::{PlanArguments, ReachArguments};
+use crate::error::Error;
+use crate::progress::Progress;
+use crate::{read_scene, say, signals, warn};
+use rod_files::{PlanRequest, Planned, Staged, read_calibrated_rod, read_known_contours, read_noise};
+use std::path::Path;
+use std::process::ExitCode;
+use vibrissa_cli::{write_plan, write_reach};
+
+/// What may be done with a scene that has friction.
+const FRICTION: &str = "take it away: `reach` computes contacts without friction";
+
+pub fn reach(arguments: ReachArguments) -> Result<ExitCode, Error> {
+    let ReachArguments { scene, distances, angles, out, jobs } = arguments;
+    run_on(jobs);
+    let scene = read_scene(&scene)?;
+    scene.check_no_friction(FRICTION)?;
+    let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
+    let caught = signals::ask();
+    let staged = Staged::new(&out)?.keeping(scene.files.clone());
+    let progress = Progress::of(&caught.interrupt);
+    let angles = angles.map(|angles| angles.0.into_iter().map(f64::to_radians).collect());
+    let found = scene.reach(distances.map(|distances| distances.0), angles, &caught.interrupt)?;
+    drop(progress);
+    if !found.is_complete() {
+        warn(&format!("warning: {}: interrupted; nothing is written\n", scene.name));
+        return Ok(caught.status());
+    }
+    write_reach(&found, &staged)?;
+    staged.publish()?;
+    say(&found.report());
+    say(&format!("written to {}\n", out.display()));
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Computes on so many threads.
+fn run_on(jobs: Option<usize>) {
+    if let Some(jobs) = jobs {
+        // fails only where the threads are there already
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(jobs).build_global();
+    }
+}
+
+pub fn plan(arguments: PlanArguments) -> Result<ExitCode, Error> {
+    let PlanArguments {
+        result,
+        rod,
+        distances,
+        angles,
+        scans,
+        stress,
+        noise,
+        rate,
+        speed,
+        hypotheses,
+        seed,
+        out,
+        jobs,
+    } = arguments;
+    run_on(jobs);
+    let known = read_known_contours(&result)?;
+    let calibrated = read_calibrated_rod(&rod)?;
+    let inputs = [rod, result.join("fitted.csv")].into_iter().chain(noise.clone()).collect();
+    let request = PlanRequest {
+        distances: distances.map(|distances| distances.0),
+        angles: angles.map(|angles| angles.0.into_iter().map(f64::to_radians).collect()),
+        noise: noise.map(|file| read_noise(&file)).transpose()?,
+        rate,
+        speed,
+        count: scans,
+        most_stress: stress,
+        hypotheses,
+        seed,
+    };
+    let caught = signals::ask();
+    let staged = Staged::new(&out)?.keeping(inputs);
+    let progress = Progress::of(&caught.interrupt);
+    let name = result.file_name().unwrap_or(result.as_os_str()).to_string_lossy().into_owned();
+    let found = Planned::new(&name, &calibrated.rod, known, &request, &caught.interrupt)?;
+    drop(progress);
+    if !found.is_complete() {
+        warn(&format!("warning: {name}: interrupted; nothing is written\n"));
+        return Ok(caught.status());
+    }
+    write_plan(&found, &staged)?;
+    staged.publish()?;
+    say(&found.report());
+    say(&format!("written to {}\n", out.display()));
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,48 @@
+//! A plan in words.
+
+use super::Planned;
+use super::files::median_sigma;
+use std::fmt::Write;
+
+impl Planned {
+    /// The report, lengths in mm.
+    pub fn report(&self) -> String {
+        let mut text = String::new();
+        // writing to a String cannot fail
+        let _ = self.write_report(&mut text);
+        text
+    }
+
+    fn write_report(&self, text: &mut String) -> std::fmt::Result {
+        let (name, hypotheses) = (&self.name, self.plan.hypotheses.len());
+        writeln!(text, "{name}: {} candidate scans, {hypotheses} hypotheses about the object", self.candidates)?;
+        for (place, choice) in self.choices.iter().enumerate() {
+            let forecast = &self.plan.forecasts[choice.candidate];
+            let path = forecast.candidate.path;
+            let [from, to] = [path.at(0.0), path.at(path.length())];
+            write!(
+                text,
+                "scan {}: clamp from ({:.2}, {:.2}) to ({:.2}, {:.2}) mm, angle {:.2} deg: {:.2} mm of new contour, {:.0} s",
+                place + 1,
+                1e3 * from.x,
+                1e3 * from.y,
+                1e3 * to.x,
+                1e3 * to.y,
+                from.phi.to_degrees(),
+                1e3 * choice.gain,
+                forecast.time
+            )?;
+            if let Some(stress) = forecast.largest_stress {
+                write!(text, ", at most {:.0} MPa", 1e-6 * stress)?;
+            }
+            if let Some(sigma) = median_sigma(forecast) {
+                write!(text, ", sigma {:.1} um", 1e6 * sigma)?;
+            }
+            writeln!(text)?;
+        }
+        if self.choices.is_empty() {
+            writeln!(text, "no scan touches anything new, stays clear of the object and within the largest stress")?;
+        }
+        Ok(())
+    }
+}

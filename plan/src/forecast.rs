@@ -1,0 +1,263 @@
+//! What candidate scans are expected to add to what is known.
+
+use crate::choice::{Choice, exhaustive, greedy};
+use crate::hypothesis::Hypothesis;
+use crate::known::{Known, KnownContour};
+use crate::precision::{Measurement, PlaceSigma, predicted};
+use crate::support::along;
+use crate::{IntervalSet, PlanError, ReachGrid, Scanned, StraightScan, scanned};
+use rayon::prelude::*;
+use rod_contact::{ClampPath, StopReason};
+use rod_core::PhysicalRod;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// How candidates are judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlanSettings {
+    /// Objects that are drawn, beside the most plausible one. More: slower; the error of the expected gains falls with the root of it.
+    pub hypotheses: usize,
+    /// Seed of the draws: the same one gives the same plan.
+    pub seed: u64,
+    /// Speed of the clamp, m/s.
+    pub speed: f64,
+    /// The sensor, and the contour that will be fitted; without it no standard deviations are predicted.
+    pub measurement: Option<Measurement>,
+}
+
+impl Default for PlanSettings {
+    /// 16 hypotheses, and 1 mm/s.
+    fn default() -> Self {
+        Self { hypotheses: 16, seed: 0, speed: 1e-3, measurement: None }
+    }
+}
+
+/// A scan that may be made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// Where it stands in a grid; none where its path was given.
+    pub scan: Option<StraightScan>,
+    /// The way of the clamp.
+    pub path: ClampPath,
+}
+
+/// What a candidate is expected to bring.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Forecast {
+    /// The scan.
+    pub candidate: Candidate,
+    /// Mean length of the contour that is touched and was not before, m.
+    pub gain: f64,
+    /// Its standard deviation over the hypotheses, m.
+    pub gain_sigma: f64,
+    /// Mean length of the contour that is touched at all, m.
+    pub touched: f64,
+    /// Time of the scan at the speed of the settings, s.
+    pub time: f64,
+    /// Largest bending stress over all hypotheses, Pa; none where the diameter of the rod is not known.
+    pub largest_stress: Option<f64>,
+    /// Largest moment at the clamp over all hypotheses, N m.
+    pub largest_moment: f64,
+    /// Share of the hypotheses in which the clamp runs into the object.
+    pub blocked: f64,
+    /// Predicted standard deviations along the most plausible object; empty without a measurement.
+    pub sigmas: Vec<PlaceSigma>,
+    /// Median standard deviation at the points touched before, and after this scan as well, m; none without a measurement.
+    pub known_sigma: Option<[f64; 2]>,
+}
+
+/// What all candidates are expected to bring.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The objects that agree with what is known, the most plausible one first.
+    pub hypotheses: Vec<Hypothesis>,
+    /// The candidates in the given order; fewer where the work was ended early.
+    pub forecasts: Vec<Forecast>,
+    /// What each candidate newly touches of each object of each hypothesis.
+    new: Vec<Vec<Vec<IntervalSet>>>,
+}
+
+impl Plan {
+    /// Mean length (m) that some candidates newly touch together.
+    pub fn value(&self, taken: &[usize]) -> f64 {
+        let of_hypothesis = |hypothesis: usize| {
+            let of_object = |object: usize| {
+                let mut union = IntervalSet::default();
+                taken.iter().for_each(|candidate| union.extend(&self.new[*candidate][hypothesis][object]));
+                union.length()
+            };
+            (0..self.hypotheses[hypothesis].objects.len()).map(of_object).sum::<f64>()
+        };
+        (0..self.hypotheses.len()).map(of_hypothesis).sum::<f64>() / self.hypotheses.len().max(1) as f64
+    }
+
+    /// Up to `count` candidates that together newly touch most, taken one after the other: at least 0.632 of the most that so many can
+    /// ([`greedy`]). None of them runs into the object in a hypothesis, or exceeds the stress (Pa).
+    pub fn greedy(&self, count: usize, most_stress: Option<f64>) -> Vec<Choice> {
+        let allowed = self.allowed(most_stress);
+        let own = |taken: &[usize]| taken.iter().map(|k| allowed[*k]).collect::<Vec<_>>();
+        let choices = greedy(allowed.len(), count, |taken| self.value(&own(taken)));
+        choices.into_iter().map(|choice| Choice { candidate: allowed[choice.candidate], ..choice }).collect()
+    }
+
+    /// The best set of at most `count` candidates by trying all of them, and its value.
+    pub fn best(&self, count: usize, most_stress: Option<f64>) -> (Vec<usize>, f64) {
+        let allowed = self.allowed(most_stress);
+        let own = |taken: &[usize]| taken.iter().map(|k| allowed[*k]).collect::<Vec<_>>();
+        let (taken, value) = exhaustive(allowed.len(), count, &|taken: &[usize]| self.value(&own(taken)));
+        (own(&taken), value)
+    }
+
+    fn allowed(&self, most_stress: Option<f64>) -> Vec<usize> {
+        let holds = |forecast: &Forecast| {
+            let stress = forecast.largest_stress.zip(most_stress);
+            forecast.blocked == 0.0 && stress.is_none_or(|(stress, most)| stress <= most)
+        };
+        (0..self.forecasts.len()).filter(|k| holds(&self.forecasts[*k])).collect()
+    }
+}
+
+/// Straight scans at the distances and angles of a grid, both ways, whose lines are so far from all hypotheses about the object: those of
+/// [`plan`] with the same settings.
+///
+/// # Errors
+/// [`PlanError`].
+pub fn straight_candidates<R: PhysicalRod>(
+    rod: &R,
+    known: &[KnownContour],
+    grid: &ReachGrid,
+    settings: &PlanSettings,
+) -> Result<Vec<Candidate>, PlanError> {
+    grid.check(rod)?;
+    let length = rod.units().length;
+    let hypotheses = Hypothesis::all(known, length, settings.hypotheses, settings.seed);
+    if hypotheses.is_empty() {
+        return Err(PlanError::NothingKnown);
+    }
+    let candidate = |scan: StraightScan| {
+        let frames = || {
+            hypotheses
+                .iter()
+                .flat_map(|one| one.objects.iter().zip(&one.outlines))
+                .flat_map(|(object, outline)| outline.points(object))
+        };
+        let nearest = frames().map(|(_, frame)| along(scan.angle, frame)).fold(f64::INFINITY, f64::min);
+        let left = scan.angle + std::f64::consts::FRAC_PI_2;
+        let limit = nearest - scan.distance + length;
+        let within =
+            frames().filter(|(_, frame)| along(scan.angle, *frame) <= limit).map(|(_, frame)| along(left, frame));
+        let across =
+            within.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| (ends.0.min(place), ends.1.max(place)));
+        Ok(Candidate { scan: Some(scan), path: scan.path(nearest, across, length)? })
+    };
+    grid.scans().map(candidate).collect()
+}
+
+/// What each of some candidate scans is expected to add to what is `known` of an object, on all cores, without friction. `goes_on` hears how many
+/// candidates are done, and ends the work where it returns false.
+///
+/// # Errors
+/// [`PlanError::NothingKnown`] where no point is known.
+pub fn plan<R: PhysicalRod + Sync>(
+    rod: &R,
+    known: &[KnownContour],
+    candidates: &[Candidate],
+    settings: &PlanSettings,
+    goes_on: &(impl Fn(usize) -> bool + Sync),
+) -> Result<Plan, PlanError> {
+    let length = rod.units().length;
+    if candidates.is_empty() {
+        return Err(PlanError::Empty { what: "candidates" });
+    }
+    let hypotheses = Hypothesis::all(known, length, settings.hypotheses, settings.seed);
+    if hypotheses.is_empty() {
+        return Err(PlanError::NothingKnown);
+    }
+    let done = AtomicUsize::new(0);
+    let one = |candidate: &Candidate| {
+        let found = forecast(rod, known, &hypotheses, *candidate, settings);
+        (found, goes_on(done.fetch_add(1, Ordering::Relaxed) + 1))
+    };
+    let found = candidates.par_iter().map(one).take_any_while(|(_, goes_on)| *goes_on).map(|(found, _)| found);
+    let (forecasts, new) = found.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+    Ok(Plan { hypotheses, forecasts, new })
+}
+
+fn forecast<R: PhysicalRod>(
+    rod: &R,
+    known: &[KnownContour],
+    hypotheses: &[Hypothesis],
+    candidate: Candidate,
+    settings: &PlanSettings,
+) -> Result<(Forecast, Vec<Vec<IntervalSet>>), PlanError> {
+    let (path, step) = (candidate.path, scanned::STEP * rod.units().length);
+    let (mut new, mut gains, mut touched) = (Vec::new(), Vec::new(), 0.0);
+    let mut forecast = Forecast {
+        candidate,
+        gain: 0.0,
+        gain_sigma: 0.0,
+        touched: 0.0,
+        time: path.length() / settings.speed,
+        largest_stress: None,
+        largest_moment: 0.0,
+        blocked: 0.0,
+        sigmas: Vec::new(),
+        known_sigma: None,
+    };
+    let count = hypotheses.len() as f64;
+    for (number, hypothesis) in hypotheses.iter().enumerate() {
+        let Hypothesis { objects, outlines, touched: before } = hypothesis;
+        let (found, states) = Scanned::of(rod, objects, outlines, path, step)?;
+        let all: Vec<IntervalSet> = (0..objects.len()).map(|object| found.touched.all(object)).collect();
+        let fresh: Vec<IntervalSet> = all.iter().zip(before).map(|(all, before)| all.without(before)).collect();
+        gains.push(fresh.iter().map(IntervalSet::length).sum::<f64>());
+        touched += all.iter().map(IntervalSet::length).sum::<f64>();
+        new.push(fresh);
+        forecast.largest_moment = forecast.largest_moment.max(found.largest_moment);
+        forecast.largest_stress = match (forecast.largest_stress, found.largest_stress) {
+            (Some(one), Some(other)) => Some(one.max(other)),
+            (one, other) => one.or(other),
+        };
+        let is_blocked = found.stop.is_some_and(|stop| stop.reason == StopReason::ClampInside);
+        forecast.blocked += f64::from(u8::from(is_blocked)) / count;
+        if let (0, Some(measurement)) = (number, &settings.measurement) {
+            forecast.sigmas = predicted(rod, objects, outlines, &states, path.length(), measurement);
+            forecast.known_sigma = known_sigma(known, hypothesis, &forecast.sigmas, measurement);
+        }
+    }
+    forecast.touched = touched / count;
+    forecast.gain = gains.iter().sum::<f64>() / count;
+    let square: f64 = gains.iter().map(|gain| (gain - forecast.gain).powi(2)).sum();
+    forecast.gain_sigma = (square / (count - 1.0).max(1.0)).sqrt();
+    Ok((forecast, new))
+}
+
+/// Median standard deviation at the points touched before, and with the predicted ones at the same places, as of independent measurements.
+fn known_sigma(
+    known: &[KnownContour],
+    hypothesis: &Hypothesis,
+    predicted: &[PlaceSigma],
+    measurement: &Measurement,
+) -> Option<[f64; 2]> {
+    let (mut before, mut after) = (Vec::new(), Vec::new());
+    for (point, known) in known.iter().flat_map(|contour| contour.points.iter().zip(&contour.known)) {
+        let Known::Touched { sigma } = *known else { continue };
+        let at =
+            hypothesis.objects.iter().zip(&hypothesis.outlines).enumerate().filter_map(|(object, (shape, outline))| {
+                let place = outline.nearest(shape, point[0], point[1])?;
+                let frame = outline.frame(shape, place);
+                Some((object, place, (frame.x - point[0]).hypot(frame.y - point[1])))
+            });
+        let (object, place, _) = at.min_by(|one, other| one.2.total_cmp(&other.2))?;
+        let near = predicted
+            .iter()
+            .filter(|one| one.object == object && (one.place - place).abs() <= 0.5 * measurement.resolution);
+        let new = near.map(|one| one.sigma).reduce(f64::min).unwrap_or(f64::INFINITY);
+        before.push(sigma);
+        after.push((sigma.powi(-2) + new.powi(-2)).sqrt().recip());
+    }
+    let median = |values: &mut Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    Some([median(&mut before)?, median(&mut after)?])
+}

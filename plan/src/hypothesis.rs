@@ -1,0 +1,231 @@
+//! Objects that agree with what is known: how the contour may go on where no rod was.
+//!
+//! The model: contours whose ends are nearer than a rod length belong to one object. Beyond its ends a contour goes on with a constant
+//! curvature, one of those along it, each as likely, for a rod length at most. Ends that turn towards each other there meet, unless they are far apart. Between touched points the hollows that the rod bridged are deeper or
+//! shallower by a share of the room of the points, the same all along, uniform from -1 to 1. The touched points stay where they are.
+
+use crate::known::{Known, KnownContour};
+use crate::{IntervalSet, Outline, support};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rod_contours::{Composite, Contour, Line, Range, Spline, SplineEnd};
+use std::f64::consts::PI;
+
+/// How far a contour goes on beyond its ends, rod lengths: a scan reaches no farther.
+const ON: f64 = 1.0;
+
+/// Distance of the points there, rod lengths.
+const APART: f64 = 0.03;
+
+/// Turn (rad) that is left between the ends at the back of an object, which the spline that closes it bridges. Smaller: its ends may cross.
+const OPEN: f64 = 0.3;
+
+/// Largest distance of ends that have turned towards each other, rod lengths, that are taken to meet: a rod bridges no wider gap between them.
+const MEET: f64 = 0.5;
+
+/// How often a hypothesis is drawn anew whose contour crosses itself. Then its ends go on straight.
+const DRAWS: usize = 20;
+
+/// An object that agrees with what is known.
+#[derive(Clone, Debug)]
+pub struct Hypothesis {
+    /// Objects.
+    pub objects: Vec<Composite>,
+    /// Their outlines.
+    pub outlines: Vec<Outline>,
+    /// What of each outline is touched before.
+    pub touched: Vec<IntervalSet>,
+}
+
+impl Hypothesis {
+    /// The most plausible object, followed by `count` draws with a seed; fewer where what is known gives no contour. `length` is that of the rod, m.
+    pub(crate) fn all(contours: &[KnownContour], length: f64, count: usize, seed: u64) -> Vec<Self> {
+        let joined = KnownContour::joined(contours, length);
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let middle = Self::of(&joined, length, &mut |curvatures| median(curvatures), &mut || 0.0);
+        let mut all: Vec<Self> = middle.into_iter().collect();
+        for _ in 0..count {
+            for _ in 0..DRAWS {
+                let mut depths: Vec<f64> = (0..256).map(|_| 2.0 * random.random::<f64>() - 1.0).collect();
+                let mut curvature = |curvatures: &[f64]| match curvatures.len() {
+                    0 => 0.0,
+                    count => curvatures[((random.random::<f64>() * count as f64) as usize).min(count - 1)],
+                };
+                if let Some(drawn) = Self::of(&joined, length, &mut curvature, &mut || depths.pop().unwrap_or(0.0)) {
+                    all.push(drawn);
+                    break;
+                }
+            }
+        }
+        all
+    }
+
+    fn of(
+        contours: &[KnownContour],
+        length: f64,
+        curvature: &mut dyn FnMut(&[f64]) -> f64,
+        depth: &mut dyn FnMut() -> f64,
+    ) -> Option<Self> {
+        let (mut objects, mut touched_points) = (Vec::new(), Vec::new());
+        for contour in contours {
+            let inner = contour.deepened(depth);
+            let (object, points) = inner.went_on(length, curvature)?;
+            objects.push(object);
+            touched_points.push(points);
+        }
+        let outlines: Vec<Outline> =
+            objects.iter().map(|object| support::outline(object, &[])).collect::<Option<_>>()?;
+        let touched = objects.iter().zip(&outlines).zip(&touched_points).map(|((object, outline), points)| {
+            let mut touched = IntervalSet::default();
+            for pair in points.windows(2) {
+                let [from, to] = [pair[0], pair[1]].map(|point| point.map(|[x, y]| outline.nearest(object, x, y)));
+                if let (Some(Some(from)), Some(Some(to))) = (from, to) {
+                    touched.insert(from, to);
+                }
+            }
+            touched
+        });
+        let touched = touched.collect();
+        (!objects.is_empty()).then_some(Self { objects, outlines, touched })
+    }
+}
+
+impl KnownContour {
+    /// With each run of bounded points moved outward by a share of their room.
+    fn deepened(&self, depth: &mut dyn FnMut() -> f64) -> Self {
+        let (mut moved, last) = (self.clone(), self.points.len() - 1);
+        let mut share = None;
+        for k in 0..self.points.len() {
+            let Known::Bounded { room } = self.known[k] else {
+                share = None;
+                continue;
+            };
+            let share = *share.get_or_insert_with(&mut *depth);
+            let (before, after) = (self.points[k.saturating_sub(1)], self.points[(k + 1).min(last)]);
+            let (dx, dy) = (after[0] - before[0], after[1] - before[1]);
+            let chord = dx.hypot(dy);
+            // the solid is on the left
+            moved.points[k][0] += share * room * dy / chord;
+            moved.points[k][1] -= share * room * dx / chord;
+        }
+        moved
+    }
+
+    /// The object with both ends gone on, and its points, none for those that are not touched.
+    fn went_on(
+        &self,
+        length: f64,
+        curvature: &mut dyn FnMut(&[f64]) -> f64,
+    ) -> Option<(Composite, Vec<Option<[f64; 2]>>)> {
+        let smooth = pieces(&self.points, &self.vertices)?;
+        let (first, last) = (smooth.first()?, smooth.last()?);
+        let (start, end) = (first.frame(first.range().from), last.frame(last.range().to));
+        let mut curvatures = Vec::new();
+        for piece in &smooth {
+            let Range { from, to } = piece.range();
+            // splines bend at their points; ends of natural ones are straight
+            curvatures.extend((1..8).map(|k| piece.frame(from + (to - from) * f64::from(k) / 8.0).curvature()));
+        }
+        let turn: f64 = end.alpha - start.alpha;
+        let most = (0.5 * (2.0 * PI - OPEN - turn.abs())).max(0.0);
+        let step = APART * length;
+        let mut beyond = |x: f64, y: f64, alpha: f64, forwards: bool| {
+            let kappa = curvature(&curvatures);
+            let count = (ON / APART).min(most / (kappa.abs() * step).max(1e-12)) as usize;
+            let sign = if forwards { 1.0 } else { -1.0 };
+            let (mut at, mut angle) = ([x, y], alpha);
+            let mut points = Vec::new();
+            for _ in 0..count {
+                angle += sign * 0.5 * kappa * step;
+                at = [at[0] + sign * step * angle.cos(), at[1] + sign * step * angle.sin()];
+                angle += sign * 0.5 * kappa * step;
+                points.push(at);
+            }
+            points
+        };
+        let mut before = beyond(start.x, start.y, start.alpha, false);
+        before.reverse();
+        let after = beyond(end.x, end.y, end.alpha, true);
+        let vertices: Vec<usize> = self.vertices.iter().map(|vertex| vertex + before.len()).collect();
+        let points: Vec<[f64; 2]> = before.iter().chain(&self.points).chain(&after).copied().collect();
+        let (first, last) = (points.first()?, points.last()?);
+        // ends that went on as far as they may have turned towards each other
+        let farthest = (ON / APART) as usize;
+        let meets = before.len().max(after.len()) < farthest
+            && (first[0] - last[0]).hypot(first[1] - last[1]) < MEET * length
+            && points.len() > 3;
+        let pieces = if meets { closed_pieces(points, &vertices)? } else { pieces(&points, &vertices)? };
+        let object = Composite::new(pieces).ok()?;
+        let is_touched = |(point, known): (&[f64; 2], &Known)| matches!(known, Known::Touched { .. }).then_some(*point);
+        Some((object, self.points.iter().zip(&self.known).map(is_touched).collect()))
+    }
+}
+
+/// Smooth pieces between vertices.
+fn pieces(points: &[[f64; 2]], vertices: &[usize]) -> Option<Vec<Box<dyn Contour>>> {
+    let starts = std::iter::once(0).chain(vertices.iter().copied());
+    let ends = vertices.iter().copied().chain([points.len().checked_sub(1)?]);
+    let piece = |(from, to): (usize, usize)| -> Option<Box<dyn Contour>> {
+        match points.get(from..=to)? {
+            [from, to] => Some(Box::new(Line::new(*from, *to).ok()?)),
+            points => Some(Box::new(Spline::through(points, SplineEnd::Natural).ok()?)),
+        }
+    };
+    starts.zip(ends).map(piece).collect()
+}
+
+/// Smooth pieces between the vertices of a closed contour, whose last point is not its first.
+fn closed_pieces(mut points: Vec<[f64; 2]>, vertices: &[usize]) -> Option<Vec<Box<dyn Contour>>> {
+    let Some(first) = vertices.first() else {
+        return Some(vec![Box::new(Spline::through(&points, SplineEnd::Periodic).ok()?)]);
+    };
+    points.rotate_left(*first);
+    points.push(*points.first()?);
+    pieces(&points, &vertices[1..].iter().map(|vertex| vertex - first).collect::<Vec<_>>())
+}
+
+/// The middle one of some values; 0 of none.
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arc(from: f64, to: f64, count: usize) -> KnownContour {
+        let angle = |k: usize| from + (to - from) * k as f64 / (count - 1) as f64;
+        KnownContour {
+            points: (0..count).map(|k| [0.2 * angle(k).cos(), 0.2 * angle(k).sin()]).collect(),
+            vertices: Vec::new(),
+            known: vec![Known::Touched { sigma: 1e-4 }; count],
+        }
+    }
+
+    #[test]
+    fn an_arc_goes_on_as_a_circle() {
+        let all = Hypothesis::all(&[arc(-2.3, -0.8, 30)], 1.0, 4, 1);
+        assert_eq!(all.len(), 5);
+        let (object, outline, touched) = (&all[0].objects[0], &all[0].outlines[0], &all[0].touched[0]);
+        // half of what is left of the circle on either side, less what stays open
+        assert!((touched.length() - 0.2 * 1.5).abs() < 1e-4, "{}", touched.length());
+        for (_, frame) in outline.points(object) {
+            assert!((frame.x.hypot(frame.y) - 0.2).abs() < 5e-3, "{frame:?}");
+        }
+        assert!(outline.length() > 0.2 * 5.0);
+    }
+
+    #[test]
+    fn hollows_differ_and_what_is_touched_stays() {
+        let mut contour = arc(-2.3, -0.8, 30);
+        contour.known[10..15].fill(Known::Bounded { room: 0.02 });
+        let all = Hypothesis::all(&[contour.clone()], 1.0, 3, 7);
+        for one in &all[1..] {
+            let gap = |k: usize| one.objects[0].gap(contour.points[k][0], contour.points[k][1]);
+            assert!(gap(12).abs() > 1e-6 && gap(12).abs() < 0.021 && gap(5).abs() < 1e-12);
+            assert_eq!(one.touched[0].parts().len(), 2);
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! What comes of one scan.
+
+use crate::touched::{Touched, Trail};
+use crate::{Outline, PlanError};
+use rod_contact::{ClampPath, Event, EventKind, Item, State, Stop, Sweep};
+use rod_contours::Composite;
+use rod_core::PhysicalRod;
+
+/// Distance of the states of a sweep, rod lengths. Smaller: slower; the ends of what is touched are exact all the same.
+pub(crate) const STEP: f64 = 0.01;
+
+/// What comes of one scan without friction.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scanned {
+    /// What it touches of each object.
+    pub touched: Touched,
+    /// Jumps of the rod to another equilibrium in contact.
+    pub snaps: usize,
+    /// Largest bending stress at the surface of the rod over the states, Pa; none where its diameter is not known.
+    pub largest_stress: Option<f64>,
+    /// Largest moment at the clamp over the states, N m.
+    pub largest_moment: f64,
+    /// Why the sweep stopped early, if it did: what it would touch after that is not known.
+    pub stop: Option<Stop>,
+}
+
+impl Scanned {
+    /// A scan along a path, with a state at each `step` (m), and its states at these distances.
+    pub(crate) fn of<R: PhysicalRod>(
+        rod: &R,
+        objects: &[Composite],
+        outlines: &[Outline],
+        path: ClampPath,
+        step: f64,
+    ) -> Result<(Self, Vec<State>), PlanError> {
+        let (mut found, mut trail, mut states) = (Self::default(), Trail::default(), Vec::new());
+        for item in Sweep::new(rod, objects, path, step)? {
+            match item {
+                Ok(Item::State(state)) => {
+                    found.load(&state);
+                    states.push(state.clone());
+                    trail.state(state);
+                }
+                Ok(Item::Event(event)) => {
+                    found.pass(&event);
+                    trail.event(event);
+                }
+                Err(stop) => found.stop = Some(stop),
+            }
+        }
+        found.touched = Touched::of(&trail, rod, objects, outlines);
+        Ok((found, states))
+    }
+
+    fn pass(&mut self, event: &Event) {
+        self.snaps += usize::from(event.kind == EventKind::Snap);
+        self.load(&event.before);
+        self.load(&event.after);
+    }
+
+    fn load(&mut self, state: &State) {
+        self.largest_moment = self.largest_moment.max(state.reactions.m0z.abs());
+        self.largest_stress = match (self.largest_stress, state.max_stress) {
+            (Some(one), Some(other)) => Some(one.max(other)),
+            (one, other) => one.or(other),
+        };
+    }
+}
