@@ -25,7 +25,6 @@ pub(super) struct Together {
     pub range: Range<usize>,
     /// Of the whole recording.
     pub cost: f64,
-    /// Mean square of the residuals of these, and of the first and the last of them, whichever is largest.
     mean: f64,
     residuals: Vec<Option<Vector3<f64>>>,
 }
@@ -48,19 +47,7 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         let model = fit.model(&x)?;
         let explained = fit.explained(&model);
         self.count(fit.count_asked(), fit.evaluations + 1);
-        let is_counted = |k: &usize| !self.fit.blocks.blocks[*k].is_left_out;
-        let size = |k: usize| explained.residuals[k].map(|r| r.norm());
-        let cost = fit.cost_of(&explained);
-        let mean_of = |part: Range<usize>, missed: Option<f64>| {
-            let own: Vec<f64> = part.filter(is_counted).filter_map(|k| size(k).map(|r| r * r).or(missed)).collect();
-            own.iter().sum::<f64>() / (3 * own.len().max(1)) as f64
-        };
-        let edges = [
-            range.start..range.end.min(range.start + NEAR + 1),
-            range.end.saturating_sub(NEAR + 1).max(range.start)..range.end,
-        ];
-        let mean =
-            edges.into_iter().map(|edge| mean_of(edge, None)).fold(mean_of(range.clone(), Some(MISSED)), f64::max);
+        let (cost, mean) = (fit.cost_of(&explained), self.mean(&explained.residuals, &range));
         let mut chains = model.curve.nodes_of_chains();
         for (node, given) in chains.iter_mut().flatten().zip(with.chains.iter().flatten()) {
             node.sigma = given.sigma;
@@ -73,6 +60,36 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
             mean,
             residuals: explained.residuals,
         })
+    }
+
+    /// Mean square of the residuals of some blocks, or of the first or the last of those that are reached, whichever is largest.
+    fn mean(&self, residuals: &[Option<Vector3<f64>>], range: &Range<usize>) -> f64 {
+        let mean_of = |part: Range<usize>, missed: Option<f64>| {
+            let counted = part.filter(|k| !self.fit.blocks.blocks[*k].is_left_out);
+            let squares: Vec<f64> =
+                counted.filter_map(|k| residuals[k].map(|residual| residual.norm_squared()).or(missed)).collect();
+            squares.iter().sum::<f64>() / (3 * squares.len().max(1)) as f64
+        };
+        let Range { start, end } = *range;
+        let edges = [start..end.min(start + NEAR + 1), end.saturating_sub(NEAR + 1).max(start)..end];
+        edges.into_iter().map(|edge| mean_of(edge, None)).fold(mean_of(range.clone(), Some(MISSED)), f64::max)
+    }
+
+    /// The same with the most blocks beyond `before` that are explained; none where these are few.
+    fn shortened(&self, found: &Together, before: &Together, is_forwards: bool) -> Option<Together> {
+        let Range { start, end } = found.range;
+        let more = (found.range.len() - before.range.len()).saturating_sub(1);
+        let ranges = (NEAR + 1..=more).rev().map(|more| match is_forwards {
+            true => start..before.range.end + more,
+            false => before.range.start - more..end,
+        });
+        let (range, mean) =
+            ranges.map(|range| (range.clone(), self.mean(&found.residuals, &range))).find(|of| of.1 < GOOD)?;
+        let mut grown = Grown { asked: before.grown.asked.clone(), ..found.grown.clone() };
+        grown.asked[range.clone()].fill(true);
+        let cost = self.cost(&grown);
+        let residuals = found.residuals.clone();
+        (cost < before.cost).then_some(Together { grown, range, cost, mean, residuals })
     }
 
     /// From blocks that are explained on towards the end of their run.
@@ -91,15 +108,19 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
             let mut wider = at.grown.clone();
             wider.asked[range.clone()].fill(true);
             wider.chains = self.with_ends(&wider);
-            match self.together(wider, range) {
-                Some(wider) if wider.is_good() => (at, more) = (wider, more + more / 2),
-                _ if more > NEAR => more /= 3,
+            let Some(found) = self.together(wider, range) else { return at };
+            if found.is_good() {
+                (at, more) = (found, more + more / 2);
+            } else if let Some(part) = self.shortened(&found, &at, is_forwards) {
+                (at, more) = (part, WINDOW);
+            } else if more > NEAR {
+                more /= 3;
+            } else {
                 // nodes may be too far apart there
-                Some(wider) => match self.refined(&wider, is_forwards) {
-                    Some(finer) if finer.is_good() => (at, more) = (finer, WINDOW),
-                    _ => return at,
-                },
-                None => return at,
+                match self.refined(&found, is_forwards).filter(Together::is_good) {
+                    Some(finer) => (at, more) = (finer, WINDOW),
+                    None => return at,
+                }
             }
         }
     }
