@@ -87,7 +87,8 @@ mod tests {
 
     #[test]
     fn a_circle_is_seen_whole_if_no_part_of_it_is_outside_of_the_window() {
-        let circle = Composite::single(CircularArc::new([0.0, 0.0], 0.01, 0.0, std::f64::consts::TAU).unwrap()).unwrap();
+        let circle =
+            Composite::single(CircularArc::new([0.0, 0.0], 0.01, 0.0, std::f64::consts::TAU).unwrap()).unwrap();
         let window = |right: f64| Bounds { min: [-0.02, -0.02], max: [right, 0.02] };
         assert!(seen_whole(&circle, window(0.02)).is_some());
         assert!(seen_whole(&circle, window(0.005)).is_none());
