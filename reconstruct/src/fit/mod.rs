@@ -256,6 +256,7 @@ fn best_of<'a, R: PhysicalRod>(starts: &'a [Start], mut search: Search<'a, R>) -
     best
 }
 
+/// Searches from some starts, the most promising first, until a fit explains the recording.
 fn search_from<'a, R: PhysicalRod>(
     starts: &[&'a Start],
     search: &mut Search<'a, R>,
