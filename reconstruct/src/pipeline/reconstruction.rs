@@ -11,7 +11,9 @@ use crate::kink::Kink;
 use crate::phase::{Evidence, Label};
 use crate::point::Touch;
 use crate::scan::noise_estimate::ChannelNoise;
-use crate::systematic::{Calibration, Source};
+use crate::systematic::Calibration;
+#[cfg(feature = "contact")]
+use crate::systematic::Source;
 #[cfg(feature = "contact")]
 use nalgebra::Matrix2;
 use rod_core::{Rod, Sample};
