@@ -27,6 +27,7 @@ mod order;
 mod outline;
 mod pair;
 mod piece;
+mod posterior;
 mod problem;
 mod propose;
 mod simple;

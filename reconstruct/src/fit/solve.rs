@@ -5,7 +5,7 @@ use super::curve::{Curve, Node};
 use super::finer::finer;
 use super::flatten::flattened;
 use super::grow::{Grown, grown};
-use super::needed::Posterior;
+use super::posterior::Posterior;
 use super::problem::{Explained, Fit, LOST, Model, Sources};
 use super::propose::{joined, sharpened};
 use super::simple::Best;
