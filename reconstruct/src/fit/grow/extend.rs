@@ -1,11 +1,10 @@
 //! From blocks that are explained to those next to them.
 
-use super::window::SETTLED;
-use super::{Curve, Fit, GOOD, Grown, Growth, MISSED, NEAR, Node, WINDOW};
+use super::solution::mean_square;
+use super::{Curve, GOOD, Grown, Growth, MISSED, NEAR, Node, WINDOW};
 use crate::fit::finer::finer;
 use crate::fit::propose::{NEW, onwards};
 use crate::fit::trim::{touched, trimmed};
-use crate::least_squares::{Damped, iterate};
 use nalgebra::{Vector2, Vector3};
 use rod_core::PhysicalRod;
 use std::ops::Range;
@@ -38,37 +37,17 @@ impl Together {
 impl<R: PhysicalRod> Growth<'_, '_, R> {
     /// The contour that explains these blocks together with those that were explained before.
     pub fn together(&self, with: Grown, range: Range<usize>) -> Option<Together> {
-        let curve = Curve::through(&with.chains)?;
-        let x = curve.offsets.clone();
-        let mut fit = Fit::new(self.fit.rod, curve, self.fit.blocks, &self.sources);
-        (fit.states, fit.asked) = (with.states, with.asked);
-        fit.bend = fit.bend.max(self.fit.bend);
-        let x = iterate(&mut fit, x, Damped::until(SETTLED), STEPS).0.x;
-        let model = fit.model(&x)?;
-        let explained = fit.explained(&model);
-        self.count(fit.count_asked(), fit.evaluations + 1);
-        let (cost, mean) = (fit.cost_of(&explained), self.mean(&explained.residuals, &range));
-        let mut chains = model.curve.nodes_of_chains();
-        for (node, given) in chains.iter_mut().flatten().zip(with.chains.iter().flatten()) {
-            node.sigma = given.sigma;
-        }
-        let states = fit.states.iter().zip(&model.states).map(|(known, new)| new.clone().or(known.clone())).collect();
-        Some(Together {
-            grown: Grown { chains, states, asked: fit.asked },
-            range,
-            cost,
-            mean,
-            residuals: explained.residuals,
-        })
+        let found = self.solved(&with.chains, &[], self.fit.blocks, with.states, with.asked.clone(), STEPS)?;
+        let states = found.states.into_iter().zip(found.known).map(|(new, known)| new.or(known)).collect();
+        let mean = self.mean(&found.residuals, &range);
+        let grown = Grown { chains: found.chains, states, asked: with.asked };
+        Some(Together { grown, range, cost: found.cost, mean, residuals: found.residuals })
     }
 
     /// Mean square of the residuals of some blocks, or of the first or the last of those that are reached, whichever is largest.
     fn mean(&self, residuals: &[Option<Vector3<f64>>], range: &Range<usize>) -> f64 {
         let mean_of = |part: Range<usize>, missed: Option<f64>| {
-            let counted = part.filter(|k| !self.fit.blocks.blocks[*k].is_left_out);
-            let squares: Vec<f64> =
-                counted.filter_map(|k| residuals[k].map(|residual| residual.norm_squared()).or(missed)).collect();
-            squares.iter().sum::<f64>() / (3 * squares.len().max(1)) as f64
+            mean_square(&residuals[part.clone()], &self.fit.blocks.blocks[part], missed)
         };
         let Range { start, end } = *range;
         let edges = [start..end.min(start + NEAR + 1), end.saturating_sub(NEAR + 1).max(start)..end];

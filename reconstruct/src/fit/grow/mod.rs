@@ -8,17 +8,20 @@
 mod candidates;
 mod contest;
 mod extend;
+mod solution;
 mod window;
 
 use super::blocks::Blocks;
 use super::curve::{Curve, Node};
-use super::problem::{Explained, Fit, Sources};
+use super::problem::{Fit, Sources};
 use super::propose::Space;
 use super::swept::Swept;
 use super::trim::{touched, trimmed};
 use crate::systematic::Errors;
+use nalgebra::Vector3;
 use rod_contact::State;
 use rod_core::PhysicalRod;
+use solution::Solution;
 use std::cell::Cell;
 use std::ops::Range;
 use window::Tried;
@@ -75,8 +78,8 @@ pub(super) fn grown<R: PhysicalRod>(fit: &Fit<'_, R>, errors: Errors, curve: &Cu
     growth.swept = growth.swept_by(&now);
     // more than was asked of it
     let all = Grown { asked: vec![true; now.asked.len()], ..now.clone() };
-    let Some((_, explained)) = growth.whole(&all) else { return (None, 1) };
-    let mut good: Vec<bool> = (0..fit.blocks.blocks.len()).map(|k| is_good(k, fit.blocks, &explained)).collect();
+    let Some(whole) = growth.whole(&all) else { return (None, 1) };
+    let mut good: Vec<bool> = (0..fit.blocks.blocks.len()).map(|k| is_good(k, fit.blocks, &whole.residuals)).collect();
     let mut is_new = good.iter().zip(&now.asked).any(|(is_good, asked)| *is_good && !asked);
     now.asked.iter_mut().zip(&good).for_each(|(asked, is_good)| *asked |= is_good);
     let mut cost = growth.cost(&now);
@@ -90,9 +93,9 @@ pub(super) fn grown<R: PhysicalRod>(fit: &Fit<'_, R>, errors: Errors, curve: &Cu
     }
     let mut seen: Vec<Range<usize>> = Vec::new();
     for _ in 0..RUNS {
-        let Some((run, segment)) = longest_run(fit.blocks, &good, &seen) else { break };
+        let Some(run) = longest_run(fit.blocks, &good, &seen) else { break };
         seen.push(run.clone());
-        if let Some((found, part, less)) = growth.explaining(&now, cost, &good, &run, &segment) {
+        if let Some((found, part, less)) = growth.explaining(&now, cost, &good, &run) {
             good[part].fill(true);
             (now, cost, is_new) = (found, less, true);
             // of more, what is explained is known badly
@@ -105,29 +108,20 @@ pub(super) fn grown<R: PhysicalRod>(fit: &Fit<'_, R>, errors: Errors, curve: &Cu
 }
 
 /// Whether a block is explained, together with those around it.
-fn is_good(k: usize, blocks: &Blocks, explained: &Explained) -> bool {
+fn is_good(k: usize, blocks: &Blocks, residuals: &[Option<Vector3<f64>>]) -> bool {
     let segment = blocks.segment_of(k);
     let near = k.saturating_sub(NEAR).max(segment.start)..(k + NEAR + 1).min(segment.end);
-    let squares: Vec<f64> = near.filter_map(|j| Some(explained.residuals[j]?.norm_squared())).collect();
-    let is_own = blocks.blocks[k].is_left_out || explained.residuals[k].is_some_and(|r| r.norm_squared() < OUTLIER);
+    let squares: Vec<f64> = near.filter_map(|j| Some(residuals[j]?.norm_squared())).collect();
+    let is_own = blocks.blocks[k].is_left_out || residuals[k].is_some_and(|r| r.norm_squared() < OUTLIER);
     is_own && !squares.is_empty() && squares.iter().sum::<f64>() < 3.0 * GOOD * squares.len() as f64
 }
 
-/// The longest run of blocks that are not explained, with its segment, but for those that were seen.
-fn longest_run(blocks: &Blocks, good: &[bool], seen: &[Range<usize>]) -> Option<(Range<usize>, Range<usize>)> {
-    let mut runs: Vec<(Range<usize>, Range<usize>)> = Vec::new();
-    for segment in &blocks.segments {
-        let mut first = segment.start;
-        while first < segment.end {
-            let end = (first..segment.end).find(|k| good[*k] != good[first]).unwrap_or(segment.end);
-            let counted = (first..end).filter(|k| !blocks.blocks[*k].is_left_out).count();
-            if !good[first] && counted > 1 && !seen.contains(&(first..end)) {
-                runs.push((first..end, segment.clone()));
-            }
-            first = end;
-        }
-    }
-    runs.into_iter().max_by_key(|(run, _)| run.len())
+/// The longest run of blocks that are not explained, but for those that were seen.
+fn longest_run(blocks: &Blocks, good: &[bool], seen: &[Range<usize>]) -> Option<Range<usize>> {
+    let bad: Vec<bool> = good.iter().map(|is_good| !is_good).collect();
+    let counted = |run: &Range<usize>| run.clone().filter(|k| !blocks.blocks[*k].is_left_out).count();
+    let runs = blocks.runs(&bad).into_iter().filter(|run| counted(run) > 1 && !seen.contains(run));
+    runs.max_by_key(Range::len)
 }
 
 impl<R: PhysicalRod> Growth<'_, '_, R> {
@@ -150,7 +144,7 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
     }
 
     fn cost(&self, now: &Grown) -> f64 {
-        self.whole(now).map_or(f64::INFINITY, |whole| whole.0)
+        self.whole(now).map_or(f64::INFINITY, |whole| whole.cost)
     }
 
     /// Counts evaluations of so many blocks.
@@ -159,15 +153,9 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         self.evaluations.set(self.evaluations.get() + share.max(LEAST) * evaluations as f64);
     }
 
-    /// What a contour costs along the whole recording, and what it explains.
-    fn whole(&self, now: &Grown) -> Option<(f64, Explained)> {
-        let curve = Curve::through(&now.chains)?;
-        let x = curve.offsets.clone();
-        let mut fit = Fit::new(self.fit.rod, curve, self.fit.blocks, &self.sources);
-        (fit.states, fit.asked) = (now.states.clone(), now.asked.clone());
-        let explained = fit.explained(&fit.model(&x)?);
-        self.count(fit.count_asked(), 1);
-        Some((fit.cost_of(&explained), explained))
+    /// What a contour makes of the whole recording.
+    fn whole(&self, now: &Grown) -> Option<Solution> {
+        self.solved(&now.chains, &[], self.fit.blocks, now.states.clone(), now.asked.clone(), 0)
     }
 
     /// With contour that explains a part of a run, if that costs less than before: that contour, the part and the cost.
@@ -177,8 +165,8 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         cost: f64,
         good: &[bool],
         run: &Range<usize>,
-        segment: &Range<usize>,
     ) -> Option<(Grown, Range<usize>, f64)> {
+        let segment = self.fit.blocks.segment_of(run.start);
         let known = |k: &usize| good[*k] && now.states[*k].as_ref().is_some_and(|state| !state.contacts.is_empty());
         // the blocks next to the run may be half explained
         let before = (run.start >= segment.start + NEAR).then(|| run.start - NEAR).filter(known);

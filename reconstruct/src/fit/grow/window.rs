@@ -1,17 +1,11 @@
 //! A contour against some blocks.
 
-use super::{Blocks, Curve, Fit, Growth, MISSED, Node};
-use crate::fit::problem::cost_of;
-use crate::least_squares::{Damped, iterate};
+use super::solution::mean_square;
+use super::{Blocks, Growth, MISSED, Node};
 use nalgebra::Vector2;
 use rod_contact::State;
 use rod_core::PhysicalRod;
 use std::ops::Range;
-
-/// Standard deviation of what is known of the contour while new contour is fitted to a window, rod lengths.
-const HELD: f64 = 1e-4;
-/// Relative decrease of the cost at which these fits have settled.
-pub(super) const SETTLED: f64 = 1e-3;
 
 /// Blocks on which contour is tried, and the states that are known there.
 #[derive(Clone)]
@@ -45,32 +39,10 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
 
     /// What a contour makes of a window; after so many steps of its fit, in which nodes at the places `held` stay.
     pub fn tried(&self, chains: &[Vec<Node>], window: &Window, held: &[Vector2<f64>], steps: usize) -> Option<Tried> {
-        let mut nodes = chains.to_vec();
-        for node in nodes.iter_mut().flatten().filter(|node| held.contains(&node.at)) {
-            node.sigma = HELD * self.length;
-        }
-        let curve = Curve::through(&nodes)?;
-        let mut x = curve.offsets.clone();
-        let mut fit = Fit::new(self.fit.rod, curve, &window.blocks, &self.sources);
-        fit.states.clone_from(&window.states);
-        // new contour may bend more than what is known
-        fit.bend = fit.bend.max(self.fit.bend);
-        if steps > 0 {
-            x = iterate(&mut fit, x, Damped::until(SETTLED), steps).0.x;
-        }
-        let model = fit.model(&x)?;
-        let explained = fit.explained(&model);
-        self.count(window.range.len(), fit.evaluations + 1);
-        let counted = explained.residuals.iter().zip(&window.blocks.blocks).filter(|(_, block)| !block.is_left_out);
-        let squares: Vec<Option<f64>> = counted.map(|(residual, _)| residual.map(|r| r.norm_squared())).collect();
-        let cost = squares.iter().map(|square| cost_of(square.map(f64::sqrt))).sum();
-        let mean =
-            squares.iter().map(|square| square.unwrap_or(MISSED)).sum::<f64>() / (3 * squares.len().max(1)) as f64;
-        let mut moved = model.curve.nodes_of_chains();
-        for (node, given) in moved.iter_mut().flatten().zip(chains.iter().flatten()) {
-            node.sigma = given.sigma;
-        }
-        let chains = moved;
-        Some(Tried { cost, mean, chains, window: Window { states: model.states, ..window.clone() } })
+        let (blocks, states) = (&window.blocks, window.states.clone());
+        let found = self.solved(chains, held, blocks, states, vec![true; blocks.blocks.len()], steps)?;
+        let mean = mean_square(&found.residuals, &blocks.blocks, Some(MISSED));
+        let window = Window { states: found.states, ..window.clone() };
+        Some(Tried { cost: found.cost, mean, chains: found.chains, window })
     }
 }
