@@ -4,14 +4,14 @@ use super::energy::bending_energy;
 use nalgebra::Matrix3;
 use vibrissa::reconstruct::single;
 use vibrissa::rod::Reactions;
-use vibrissa::{Rod, Sample};
+use vibrissa::{Pose, Rod, Sample};
 
 /// Standard deviations within which a reaction is noise.
 pub(super) const SIGMAS: f64 = 4.0;
 /// Fewest averages in contact.
 pub(super) const FEWEST: usize = 12;
 /// Averages over which energy and work are compared. Larger: less noise, fewer comparisons.
-const LAG: usize = 4;
+pub(super) const LAG: usize = 4;
 /// Error allowed in the length of the rod and, relative to m0z^2, in the phase criterion.
 const SLACK: f64 = 0.03;
 /// Largest error allowed in the place of a contact, however large the noise, in lengths of the rod.
@@ -32,16 +32,11 @@ pub(super) struct Agreement {
 
 /// The agreement of samples; none where too few are in contact.
 pub(super) fn agreement(samples: &[Sample], noise: [f64; 2], stiffness: f64, length: Option<f64>) -> Option<Agreement> {
-    let force = |sample: &Sample| sample.reactions.f0x.hypot(sample.reactions.f0y);
-    let largest = samples.iter().map(force).fold(0.0, f64::max);
-    let touches = |sample: &Sample| {
-        let force = force(sample);
-        force > 1e-6 * largest && (force > SIGMAS * noise[0] || sample.reactions.m0z.abs() > SIGMAS * noise[1])
-    };
-    // the length does not matter to where the moment vanishes
-    let rod = Rod::new(length.unwrap_or((stiffness / largest).sqrt()), stiffness).ok()?;
-    let found: Vec<Option<Touched>> =
-        samples.iter().map(|sample| touches(sample).then(|| Touched::of(&rod, sample, noise, stiffness))).collect();
+    let contact = in_contact(samples, noise);
+    let rod = some_rod(samples, stiffness, length)?;
+    let touched =
+        |(sample, is_in_contact): (&Sample, &bool)| is_in_contact.then(|| Touched::of(&rod, sample, noise, stiffness));
+    let found: Vec<Option<Touched>> = samples.iter().zip(&contact).map(touched).collect();
     let contacts: Vec<&Touched> = found.iter().flatten().collect();
     if contacts.len() < FEWEST {
         return None;
@@ -67,8 +62,40 @@ pub(super) fn agreement(samples: &[Sample], noise: [f64; 2], stiffness: f64, len
             touched.as_ref().and_then(|touched| bending_energy(sample, stiffness, touched.s)).unwrap_or(0.0)
         })
         .collect();
-    let contact: Vec<bool> = found.iter().map(Option::is_some).collect();
     Some(Agreement { explained, possible: share(&possible), reach, steps: steps(samples, &contact, &energies) })
+}
+
+fn force(sample: &Sample) -> f64 {
+    sample.reactions.f0x.hypot(sample.reactions.f0y)
+}
+
+fn largest_force(samples: &[Sample]) -> f64 {
+    samples.iter().map(force).fold(0.0, f64::max)
+}
+
+/// Whether each of some averages is in contact, by the noise of forces and moments.
+pub(super) fn in_contact(samples: &[Sample], noise: [f64; 2]) -> Vec<bool> {
+    let largest = largest_force(samples);
+    let touches = |sample: &Sample| {
+        let force = force(sample);
+        force > 1e-6 * largest && (force > SIGMAS * noise[0] || sample.reactions.m0z.abs() > SIGMAS * noise[1])
+    };
+    samples.iter().map(touches).collect()
+}
+
+/// A rod of this stiffness, of any length where none is known: that does not matter to where the moment vanishes.
+pub(super) fn some_rod(samples: &[Sample], stiffness: f64, length: Option<f64>) -> Option<Rod> {
+    Rod::new(length.unwrap_or((stiffness / largest_force(samples)).sqrt()), stiffness).ok()
+}
+
+/// Work of the clamp along x, y and its angle from one average to the next, J. Reactions of an average that is not in contact are noise.
+pub(super) fn work_between(poses: [Pose; 2], reactions: [&Reactions; 2], contact: [bool; 2]) -> [f64; 3] {
+    let mean = |of: fn(&Reactions) -> f64| {
+        let one = |k: usize| if contact[k] { of(reactions[k]) } else { 0.0 };
+        0.5 * (one(0) + one(1))
+    };
+    let [from, to] = poses;
+    [mean(|r| r.f0x) * (to.x - from.x), mean(|r| r.f0y) * (to.y - from.y), mean(|r| r.m0z) * (to.phi - from.phi)]
 }
 
 /// An average in contact.
@@ -122,18 +149,7 @@ fn length_of(contacts: &[&Touched]) -> Option<f64> {
 fn steps(samples: &[Sample], contact: &[bool], energies: &[f64]) -> Vec<[f64; 4]> {
     let work = |k: usize| {
         let (a, b) = (&samples[k], &samples[k + 1]);
-        let mean = |of: fn(&Reactions) -> f64| {
-            0.5 * [(a, contact[k]), (b, contact[k + 1])]
-                .iter()
-                .filter(|one| one.1)
-                .map(|one| of(&one.0.reactions))
-                .sum::<f64>()
-        };
-        [
-            mean(|r| r.f0x) * (b.pose.x - a.pose.x),
-            mean(|r| r.f0y) * (b.pose.y - a.pose.y),
-            mean(|r| r.m0z) * (b.pose.phi - a.pose.phi),
-        ]
+        work_between([a.pose, b.pose], [&a.reactions, &b.reactions], [contact[k], contact[k + 1]])
     };
     (0..samples.len().saturating_sub(LAG))
         .step_by(LAG)

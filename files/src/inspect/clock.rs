@@ -5,16 +5,12 @@
 //! the rod is in contact. Along a straight line at constant speed the work does not depend on the delay: the object is shifted, and no
 //! contradiction remains.
 
-use super::agreement::energy;
-use super::frame::averages;
+use super::agreement::{LAG, energy, in_contact, some_rod, work_between};
+use super::frame::{WORK, averages};
 use super::physics::InFrame;
 use vibrissa::rod::Reactions;
 use vibrissa::{Pose, Rod, Sample};
 
-/// Averages over which work and change of the energy are compared, as in `agreement`.
-const LAG: usize = 4;
-/// Smallest concordance of work and energy at which the delay is estimated: that of `frame` for a frame that the work alone supports.
-const WORK: f64 = 0.7;
 /// Decrease of the logarithm of the likelihood at the ends of the interval: half the 95 % quantile of chi squared with one degree of freedom.
 const DECREASE: f64 = 1.92;
 /// Largest share of the squared changes of the energy at times outside the table of the stage, where the clamp is taken to stand. A larger share shows
@@ -228,16 +224,9 @@ impl<'a> Search<'a> {
         noise: [f64; 2],
         rod: Option<&Rod>,
     ) -> Option<Self> {
-        let force = |sample: &Sample| sample.reactions.f0x.hypot(sample.reactions.f0y);
-        let largest = samples.iter().map(force).fold(0.0, f64::max);
-        let touches = |sample: &Sample| {
-            let force = force(sample);
-            force > 1e-6 * largest && (force > 4.0 * noise[0] || sample.reactions.m0z.abs() > 4.0 * noise[1])
-        };
-        let contact: Vec<bool> = samples.iter().map(touches).collect();
+        let contact = in_contact(&samples, noise);
         let stiffness = frame.stiffness();
-        let length = rod.map_or((stiffness / largest).sqrt(), Rod::length);
-        let rod = Rod::new(length, stiffness).ok()?;
+        let rod = some_rod(&samples, stiffness, rod.map(Rod::length))?;
         let phi = stage.0[0].1.phi;
         let turns = stage.0.iter().any(|row| (row.1.phi - phi).abs() > 1e-4);
         let mut search = Self { samples, contact, stage, rod, stiffness, turns, energies: Vec::new(), limit: 0.0 };
@@ -278,13 +267,9 @@ impl<'a> Search<'a> {
         };
         let poses: Vec<Pose> = self.samples.iter().map(|sample| self.stage.at(sample.pose.x - delay)).collect();
         let work = |k: usize| {
-            let mean = |of: fn(&Reactions) -> f64| {
-                let one = |k: usize| if self.contact[k] { of(&self.samples[k].reactions) } else { 0.0 };
-                0.5 * (one(k) + one(k + 1))
-            };
-            mean(|r| r.f0x) * (poses[k + 1].x - poses[k].x)
-                + mean(|r| r.f0y) * (poses[k + 1].y - poses[k].y)
-                + mean(|r| r.m0z) * (poses[k + 1].phi - poses[k].phi)
+            let reactions = [&self.samples[k].reactions, &self.samples[k + 1].reactions];
+            let [x, y, phi] = work_between([poses[k], poses[k + 1]], reactions, [self.contact[k], self.contact[k + 1]]);
+            x + y + phi
         };
         let works: Vec<f64> = (0..self.samples.len().saturating_sub(1)).map(work).collect();
         let [from, to] = self.stage.span();

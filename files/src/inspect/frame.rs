@@ -25,7 +25,7 @@ const SHARE: f64 = 0.7;
 const WEAK_WORK: f64 = 0.5;
 /// With this concordance fewer need to satisfy the conditions: friction, a taper and springs spoil them, the work hardly. A friction of 0.2 left
 /// 20 %. Where objects are on both sides of the rod, 3 to 10 % satisfy them, and the work of wrong frames had a concordance of up to 0.88.
-const WORK: f64 = 0.7;
+pub(super) const WORK: f64 = 0.7;
 const FEW: f64 = 0.15;
 /// Number of independent observations that each of the three measures of agreement is worth. Consecutive samples are not independent,
 /// and contacts that are not single spoil many of them alike. Larger: more is decided, and more of it wrongly.
