@@ -87,7 +87,7 @@ pub(super) fn grown<R: PhysicalRod>(fit: &Fit<'_, R>, errors: Errors, curve: &Cu
         let shorter = Grown { chains, ..now.clone() };
         let of_shorter = growth.cost(&shorter);
         if of_shorter < cost + TRIMMED {
-            is_new = of_shorter < cost;
+            is_new |= of_shorter < cost;
             (now, cost) = (shorter, of_shorter);
         }
     }
