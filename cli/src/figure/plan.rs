@@ -16,6 +16,9 @@ const POINT: f64 = 5.0;
 /// Length of the arrow that shows the rod, in lengths of the path.
 const ROD: f64 = 0.08;
 
+/// Distance of the number of a scan from where it begins, pixels.
+const NUMBER: f64 = 26.0;
+
 /// Draws hypotheses, known points and the chosen paths of the clamp.
 pub(crate) fn plan(found: &Planned) -> Result<String, FigureError> {
     let mm = |[x, y]: [f64; 2]| (1e3 * x, 1e3 * y);
@@ -68,8 +71,13 @@ pub(crate) fn plan(found: &Planned) -> Result<String, FigureError> {
             let rod = ROD * path.length();
             let tip = mm([from.x + rod * from.phi.cos(), from.y + rod * from.phi.sin()]);
             chart.draw_series([Element::line([line[0], tip], OTHERS[0].stroke_width(4))])?;
+            // between the extensions of both lines
+            let (sin, cos) = from.phi.sin_cos();
+            let along = [(to.x - from.x) / path.length() + cos, (to.y - from.y) / path.length() + sin];
+            let pixels = |along: f64| (NUMBER * along / 2.0_f64.sqrt()).round() as i32;
             let at = chart.backend_coord(&line[0]);
-            write(root, &(place + 1).to_string(), (at.0 + 16, at.1 - 20), HPos::Left, BODY, OTHERS[0])?;
+            let at = (at.0 - pixels(along[0]), at.1 + pixels(along[1]));
+            write(root, &(place + 1).to_string(), at, HPos::Center, BODY, OTHERS[0])?;
         }
         Ok(())
     })
