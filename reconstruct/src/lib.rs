@@ -71,7 +71,7 @@ pub use contour::{
 #[cfg(feature = "contact")]
 pub use fit::{
     ContourFit, FitError, FittedBlock, FittedObject, Goodness, Knowledge, ShapeKind, SimpleShape, WorstWindow,
-    fit_contour,
+    fit_contour, fit_contours,
 };
 #[cfg(feature = "std")]
 pub use frames::{

@@ -6,7 +6,7 @@ use crate::phase::Label;
 use crate::pipeline::{Reading, Reconstruction};
 use crate::point::{Clamp, Touch};
 use crate::scan::{Fault, Track, TrackIndex, dimensionless};
-use crate::systematic::{Frame, motion};
+use crate::systematic::{Correction, Errors, Frame, motion, still};
 use nalgebra::{Matrix2, Vector3};
 use rod_contact::{Contact, ContactKind};
 use rod_core::{Rod, Sample, Units};
@@ -38,7 +38,9 @@ const BESIDE_JUMP: usize = 1;
 /// The mean of a block of samples, dimensionless but for its contacts.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
-    /// The samples from the first to after the last.
+    /// The number of its recording.
+    pub recording: usize,
+    /// The samples from the first to after the last. Those of several recordings are numbered one recording after the other.
     pub samples: Range<usize>,
     pub tau: f64,
     pub clamp: Clamp,
@@ -58,13 +60,20 @@ pub(super) struct Block {
     pub is_left_out: bool,
 }
 
-/// The blocks of a recording.
+/// The blocks of the recordings that are fitted together.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     pub blocks: Vec<Block>,
     /// Ranges of blocks between jumps and between passes.
     pub segments: Vec<Range<usize>>,
-    /// Of the whole recording.
+    pub recordings: Vec<Part>,
+}
+
+/// One of the recordings.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    /// Its samples among all.
+    pub samples: Range<usize>,
     pub frame: Frame,
     /// Samples that are left out because the free rod rings.
     pub ringing: usize,
@@ -124,11 +133,38 @@ impl Blocks {
         let segments = cut_at_releases(&mut blocks, segments);
         let ringing = leave_out_ringing(&mut blocks, &segments);
         let (first, last) = (blocks.first().map(|block: &Block| block.tau)?, blocks.last()?.tau);
-        Some(Self { blocks, segments, frame: frame?.on_way(last - first), ringing })
+        let part = Part { samples: 0..samples.len(), frame: frame?.on_way(last - first), ringing };
+        Some(Self { blocks, segments, recordings: vec![part] })
+    }
+
+    /// With those of another recording after them.
+    pub fn and(mut self, other: Self) -> Self {
+        let (recordings, blocks) = (self.recordings.len(), self.blocks.len());
+        let samples = self.recordings.last().map_or(0, |last| last.samples.end);
+        let after = |range: Range<usize>, first: usize| range.start + first..range.end + first;
+        self.blocks.extend(other.blocks.into_iter().map(|block| Block {
+            recording: block.recording + recordings,
+            samples: after(block.samples.clone(), samples),
+            ..block
+        }));
+        self.segments.extend(other.segments.into_iter().map(|segment| after(segment, blocks)));
+        let moved = |part: Part| Part { samples: after(part.samples.clone(), samples), ..part };
+        self.recordings.extend(other.recordings.into_iter().map(moved));
+        self
+    }
+
+    /// What takes the errors of each recording off its blocks; none where gains and cross-talk leave fewer than three channels.
+    pub fn corrections(&self, errors: &[Errors]) -> Option<Vec<Correction>> {
+        self.recordings.iter().zip(errors).map(|(part, errors)| Correction::new(part.frame, errors)).collect()
     }
 }
 
 impl Block {
+    /// Pose and reactions that it may have, without errors.
+    pub fn corrected(&self, clamp: &Clamp, correction: &Correction) -> Clamp {
+        correction.apply(self.tau, clamp, &still(self.motion)).0
+    }
+
     /// Size of its reactions less others, in standard deviations.
     fn off(&self, reactions: &Vector3<f64>) -> f64 {
         (self.clamp.reactions - reactions).component_div(&self.sigma).norm()
@@ -276,6 +312,7 @@ impl Cut<'_> {
         });
         let middle = &self.local.readings[samples.start + (samples.end - samples.start) / 2];
         Block {
+            recording: 0,
             tau: before + usable.iter().map(|i| track.tau[*i]).sum::<f64>() / count,
             clamp,
             motion: motion(track, usable[usable.len() / 2]),

@@ -188,12 +188,7 @@ impl ContourFit {
     }
 }
 
-/// Fits contour and shared errors to the `samples` of a recording, from its local answers `local` on. Errors are estimated if the local answer
-/// corrects some, or no contour explains the recording without; of a rod that is not uniform never, and of a uniform one none of its natural
-/// curvature. Of those only the ones stay free that the recording asks for, by evidence.
-///
-/// The fit starts from the contact points that are answered, taken in several ways for a contour, and from those that single contacts would have
-/// wherever there is no answer. The first start that explains the recording wins, else the one of lowest cost.
+/// Fits contour and shared errors to the `samples` of a recording, from its local answers `local` on; see [`fit_contours`].
 ///
 /// # Errors
 /// [`FitError`].
@@ -202,23 +197,44 @@ pub fn fit_contour<R: PhysicalRod>(
     samples: &[Sample],
     local: &Reconstruction,
 ) -> Result<ContourFit, FitError> {
-    if local.passes.iter().any(|pass| pass.used_friction != 0.0) {
+    fit_contours(rod, &[(samples, local)])?.pop().ok_or(FitError::NoStart)
+}
+
+/// Fits one contour to the samples of several recordings of one object, with one rod in one frame, from their answers so far on. Each recording has a bias
+/// and a drift of its own; all other errors (of rod, sensor, clamp and stage) are those of all recordings. The fit to each recording is the same but for its
+/// errors, blocks, answers and goodness. All recordings are explained, or none. Errors are estimated if the local answer
+/// corrects some, or no contour explains the recording without; of a rod that is not uniform never, and of a uniform one none of its natural
+/// curvature. Of those only the ones stay free that the recording asks for, by evidence.
+///
+/// The fit starts from the contact points that are answered, taken in several ways for a contour, and from those that single contacts would have
+/// wherever there is no answer. The first start that explains the recording wins, else the one of lowest cost.
+///
+/// # Errors
+/// [`FitError`].
+pub fn fit_contours<R: PhysicalRod>(
+    rod: &R,
+    recordings: &[(&[Sample], &Reconstruction)],
+) -> Result<Vec<ContourFit>, FitError> {
+    let locals: Vec<&Reconstruction> = recordings.iter().map(|(_, local)| *local).collect();
+    if locals.iter().flat_map(|local| &local.passes).any(|pass| pass.used_friction != 0.0) {
         return Err(FitError::Friction);
     }
-    if blocks::is_exact(rod.units(), samples, local) {
+    if recordings.iter().all(|(samples, local)| blocks::is_exact(rod.units(), samples, local)) {
         return Err(FitError::Exact);
     }
     let units = rod.units();
     let uniform = Rod::new(units.length, units.moment * units.length).map_err(|_| FitError::NoStart)?;
-    let blocks = Blocks::of(&uniform, samples, local).ok_or(FitError::NoContacts)?;
-    let (sources, errors) = Sources::of(&uniform, local);
-    let starts = starts(rod, &uniform, local, blocks, sources.errors(&errors));
+    let of_recording = |(samples, local): &(&[Sample], &Reconstruction)| Blocks::of(&uniform, samples, local);
+    let blocks = recordings.iter().map(of_recording).reduce(|all, one| Some(all?.and(one?)));
+    let blocks = blocks.flatten().ok_or(FitError::NoContacts)?;
+    let (sources, errors) = Sources::of(&uniform, &locals);
+    let starts = starts(rod, &uniform, &locals, blocks, &sources.errors(&errors));
     if starts.is_empty() {
         return Err(FitError::NoContacts);
     }
     let exact = sources.exact();
     // errors that the recording does not ask for would move its contour as far as they are uncertain
-    let are_free = local.is_corrected() || sources.free.is_empty();
+    let are_free = locals.iter().any(|local| local.is_corrected()) || sources.free.is_empty();
     let (first, at_first, evaluations) = match are_free {
         true => (&sources, errors.clone(), MOST_EVALUATIONS),
         false => (&exact, DVector::zeros(0), WITHOUT_ERRORS),
@@ -239,9 +255,10 @@ pub fn fit_contour<R: PhysicalRod>(
     }
     let is_explained_by_errors = best.goodness.explains && !used.free.is_empty();
     let fewer = if is_explained_by_errors { with_fewest_errors(rod, used, &best, blocks) } else { None };
+    let samples: Vec<Sample> = recordings.iter().flat_map(|(samples, _)| *samples).copied().collect();
     match fewer {
-        Some((best, sources)) => Ok(best.result(rod, samples, blocks, &sources, &uniform)),
-        None => Ok(best.result(rod, samples, blocks, used, &uniform)),
+        Some((best, sources)) => Ok(best.results(rod, &samples, blocks, &sources, &uniform)),
+        None => Ok(best.results(rod, &samples, blocks, used, &uniform)),
     }
 }
 

@@ -7,7 +7,7 @@
 use super::AGAIN;
 use super::blocks::Blocks;
 use super::posterior::numbers;
-use super::problem::Sources;
+use super::problem::{FreeError, Sources};
 use super::solve::{Search, Solved};
 use rod_core::PhysicalRod;
 
@@ -19,19 +19,47 @@ pub(super) fn with_fewest_errors<R: PhysicalRod>(
     best: &Solved,
     blocks: &Blocks,
 ) -> Option<(Solved, Sources)> {
-    let posterior = best.posterior();
-    posterior.sets(all).into_iter().find_map(|free| {
+    let (mut found, mut sources) = with_fewer_errors(rod, all, best, blocks, all.free.len())?;
+    // near this set, another one may be the more probable
+    while let Some(fewer) = with_fewer_errors(rod, &sources, &found, blocks, all.free.len()) {
+        (found, sources) = fewer;
+    }
+    // other errors may be what one of them explains
+    let posterior = best.posterior(all.free.len());
+    let spread = |(error, value): (&FreeError, &f64)| {
+        let i = all.free.iter().position(|one| one == error)?;
+        Some(posterior.spread_about(i, *value))
+    };
+    let spread = sources.free.iter().zip(found.errors().iter()).map(spread).collect::<Option<_>>()?;
+    Some((found.with_spread(spread), sources))
+}
+
+/// The same with fewer errors than those of `sources`, of `possible` ones.
+fn with_fewer_errors<R: PhysicalRod>(
+    rod: &R,
+    sources: &Sources,
+    best: &Solved,
+    blocks: &Blocks,
+    possible: usize,
+) -> Option<(Solved, Sources)> {
+    let posterior = best.posterior(possible);
+    let mut most_probable: Option<(f64, Solved, Sources)> = None;
+    for free in posterior.sets(sources) {
+        // the cost is not quadratic: the fit itself must be the more probable one. With fewer errors it does not fall
+        let least = posterior.penalty(&free) - posterior.without(&free)?.1;
+        let so_far = most_probable.as_ref().map_or(0.0, |one| one.0);
+        if least >= so_far {
+            continue;
+        }
         let (kept, fixed) = (numbers(&free, true), numbers(&free, false));
-        let sources = Sources { free: kept.iter().map(|i| all.free[*i]).collect(), ..all.clone() };
+        let fewer = Sources { free: kept.iter().map(|i| sources.free[*i]).collect(), ..sources.clone() };
         let (curve, errors) = best.without(&fixed, &kept)?;
-        let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: AGAIN };
-        let found = search.continued(&curve, best, blocks)?;
-        // the cost is not quadratic: the fit itself must be the more probable one
-        let rise = found.cost - best.cost;
-        let is_worth = found.goodness.explains && rise + posterior.penalty(&free) - posterior.without(&free)?.1 < 0.0;
-        // other errors may be what one of them explains
-        let spread =
-            kept.iter().zip(found.errors().iter()).map(|(i, value)| posterior.spread_about(*i, *value)).collect();
-        is_worth.then(|| (found.with_spread(spread), sources))
-    })
+        let mut search = Search { rod, sources: &fewer, errors: &errors, evaluations: AGAIN };
+        let Some(found) = search.continued(&curve, best, blocks) else { continue };
+        let penalty = found.cost - best.cost + least;
+        if found.goodness.explains && penalty < so_far {
+            most_probable = Some((penalty, found, fewer));
+        }
+    }
+    most_probable.map(|(_, found, fewer)| (found, fewer))
 }

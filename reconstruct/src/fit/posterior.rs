@@ -4,10 +4,12 @@ use super::problem::Sources;
 use crate::systematic::Source;
 use nalgebra::{DMatrix, DVector};
 
-/// What a fit with all errors free tells of them, less what is known of them, in standard deviations of their budget; the contour follows them.
+/// What a fit with some errors free tells of them, less what is known of them, in standard deviations of their budget; the contour follows them.
 pub(super) struct Posterior {
     pub errors: DVector<f64>,
     pub covariance: DMatrix<f64>,
+    /// How many errors might be free.
+    pub possible: usize,
 }
 
 /// For each error whether it is free.
@@ -33,13 +35,14 @@ impl Posterior {
         Some((2.0 * root.l().diagonal().map(f64::ln).sum(), errors.dot(&root.solve(&errors))))
     }
 
-    /// -2 times the logarithm of the probability that these errors are free, over that of all.
+    /// -2 times the logarithm of the probability that these errors are free, over that of all errors of the fit.
     ///
     /// The evidence by Laplace's method: with a budget of one, the integral over the errors that are fixed is the density of their posterior at 0. Every
     /// number of free errors is equally likely before, and so are all sets of a number (Scott and Berger 2010): one of many errors fits by chance.
     pub fn penalty(&self, free: &[bool]) -> f64 {
-        let choices = log_choices(free.len(), numbers(free, true).len());
-        self.without(free).map_or(f64::INFINITY, |(freedom, rise)| rise + freedom + 2.0 * choices)
+        let choices = |count: usize| log_choices(self.possible, count);
+        let fewer = choices(numbers(free, true).len()) - choices(free.len());
+        self.without(free).map_or(f64::INFINITY, |(freedom, rise)| rise + freedom + 2.0 * fewer)
     }
 
     /// The most probable set near one: no single error more or less, and no other one in place of one, is more probable.
@@ -62,11 +65,11 @@ impl Posterior {
         }
     }
 
-    /// The sets that are more probable than all errors, the most probable one first: near none, the biases, all errors of the scan, and all.
+    /// The sets that are more probable than all errors of the fit, the most probable one first: near none, the biases, all errors of the scan, and all.
     pub fn sets(&self, sources: &Sources) -> Vec<Free> {
         let starts: [fn(Source) -> bool; 4] =
             [|_| false, |source| source <= Source::BiasM0z, Source::is_of_scan, |_| true];
-        let start = |is_free: &fn(Source) -> bool| sources.free.iter().map(|k| is_free(Source::ALL[*k])).collect();
+        let start = |is_free: &fn(Source) -> bool| sources.free.iter().map(|error| is_free(error.source)).collect();
         let mut sets: Vec<(f64, Free)> =
             starts.iter().map(|is_free| self.most_probable_near(start(is_free))).filter(|set| set.0 < 0.0).collect();
         sets.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -82,6 +85,7 @@ impl Posterior {
 
 #[cfg(test)]
 mod tests {
+    use super::super::problem::FreeError;
     use super::*;
 
     /// Of three errors, of which a recording tells the first, and the sum of the others.
@@ -89,7 +93,7 @@ mod tests {
         let rows = DMatrix::from_row_slice(2, 3, &[1.0, 0.0, 0.0, 0.0, 1.0, 1.0]) / sigma;
         let covariance = (rows.transpose() * &rows + DMatrix::identity(3, 3)).try_inverse().unwrap();
         let errors = &covariance * rows.transpose() * DVector::from_row_slice(&measured) / sigma;
-        Posterior { errors, covariance }
+        Posterior { errors, covariance, possible: 3 }
     }
 
     #[test]
@@ -118,7 +122,9 @@ mod tests {
     #[test]
     fn only_errors_that_are_needed_are_free() {
         let sources = Sources {
-            free: vec![Source::BiasF0x as usize, Source::GainF0x as usize, Source::Stiffness as usize],
+            free: [Source::BiasF0x, Source::GainF0x, Source::Stiffness]
+                .map(|source| FreeError { source, recording: None })
+                .into(),
             ..Sources::default()
         };
         let first = |measured| posterior(measured, 0.01).sets(&sources).into_iter().next();

@@ -8,12 +8,13 @@ use crate::least_squares::{Loss, NormalMatrix, Problem};
 use crate::phase::Label;
 use crate::pipeline::Reconstruction;
 use crate::point::Clamp;
-use crate::systematic::{Correction, Errors, Source, still};
+use crate::systematic::{Correction, Errors, Source};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 use rod_contact::{Derivatives, Quantity, State};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Response, Rod, SupportRate};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 /// Scale of Cauchy's loss for the residual of a block, standard deviations. Larger: outliers bend the contour; smaller: a start that is far
 /// off converges slowly.
@@ -43,26 +44,57 @@ pub(super) fn cost_of(residual: Option<f64>) -> f64 {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sources {
     pub sigmas: Errors,
-    /// What is known of each, 0 where nothing is.
-    pub known: Errors,
-    /// Numbers of those that are not known exactly.
-    pub free: Vec<usize>,
+    /// What is known of each error of each recording, 0 where nothing is.
+    pub known: Vec<Errors>,
+    /// Those that are not known exactly.
+    pub free: Vec<FreeError>,
+}
+
+/// An error that is not known exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct FreeError {
+    pub source: Source,
+    /// The recording whose error it is; none if it is one of rod, sensor, clamp or stage, which all recordings have.
+    pub recording: Option<usize>,
+}
+
+impl FreeError {
+    /// Whether it is one of a recording.
+    pub fn is_of(self, recording: usize) -> bool {
+        self.recording.is_none_or(|own| own == recording)
+    }
 }
 
 impl Sources {
-    /// Those that the local answer had a budget for, and its estimates less what is known, in standard deviations of the budget.
-    pub fn of(rod: &Rod, local: &Reconstruction) -> (Self, DVector<f64>) {
-        let (mut sigmas, mut known, mut start) = (Errors::zeros(), Errors::zeros(), Errors::zeros());
-        for estimate in local.calibration().iter().flat_map(|calibration| &calibration.sources) {
-            // the rod of the model is straight and has no friction
-            if !matches!(estimate.source, Source::NaturalCurvature | Source::Friction) {
-                let (k, unit) = (estimate.source as usize, estimate.source.unit(rod));
-                (sigmas[k], known[k], start[k]) =
-                    (estimate.budget / unit, estimate.known / unit, estimate.taken / unit);
+    /// Those that the local answers to some recordings had a budget for, and their estimates less what is known, in standard deviations of the budget: of
+    /// an error that all recordings have, their mean.
+    pub fn of(rod: &Rod, locals: &[&Reconstruction]) -> (Self, DVector<f64>) {
+        let mut sigmas = Errors::zeros();
+        let (mut known, mut start) = (vec![Errors::zeros(); locals.len()], vec![Errors::zeros(); locals.len()]);
+        for (local, (known, start)) in locals.iter().zip(known.iter_mut().zip(&mut start)) {
+            for estimate in local.calibration().iter().flat_map(|calibration| &calibration.sources) {
+                // the rod of the model is straight and has no friction
+                if !matches!(estimate.source, Source::NaturalCurvature | Source::Friction) {
+                    let (k, unit) = (estimate.source as usize, estimate.source.unit(rod));
+                    (known[k], start[k]) = (estimate.known / unit, estimate.taken / unit);
+                    sigmas[k] = sigmas[k].max(estimate.budget / unit);
+                }
             }
         }
-        let free: Vec<usize> = (0..sigmas.len()).filter(|k| sigmas[*k] > 0.0).collect();
-        let start = DVector::from_iterator(free.len(), free.iter().map(|k| (start[*k] - known[*k]) / sigmas[*k]));
+        let of_source = |source: &Source| {
+            let own = (0..locals.len()).filter(|_| source.is_of_scan()).map(Some);
+            let all = Some(None).filter(|_| !source.is_of_scan());
+            own.chain(all).map(|recording| FreeError { source: *source, recording }).collect::<Vec<_>>()
+        };
+        let possible = Source::ALL.iter().filter(|source| sigmas[**source as usize] > 0.0);
+        let free: Vec<FreeError> = possible.flat_map(of_source).collect();
+        let off = |error: &FreeError| {
+            let k = error.source as usize;
+            let of = (0..locals.len()).filter(|recording| error.is_of(*recording));
+            let off: Vec<f64> = of.map(|recording| (start[recording][k] - known[recording][k]) / sigmas[k]).collect();
+            off.iter().sum::<f64>() / off.len() as f64
+        };
+        let start = DVector::from_iterator(free.len(), free.iter().map(off));
         (Self { sigmas, known, free }, start)
     }
 
@@ -71,11 +103,18 @@ impl Sources {
         Self { free: Vec::new(), ..self.clone() }
     }
 
-    /// The errors that are so many standard deviations of their budget off what is known.
-    pub fn errors<'a>(&self, off: impl IntoIterator<Item = &'a f64>) -> Errors {
-        let mut errors = self.known;
-        self.free.iter().zip(off).for_each(|(k, off)| errors[*k] += off * self.sigmas[*k]);
+    /// The errors of each recording that are so many standard deviations of their budget off what is known.
+    pub fn errors<'a>(&self, off: impl IntoIterator<Item = &'a f64>) -> Vec<Errors> {
+        let mut errors = self.known.clone();
+        self.free.iter().zip(off).for_each(|(error, off)| self.add(*error, *off, &mut errors));
         errors
+    }
+
+    /// Makes an error larger by so many standard deviations of its budget.
+    fn add(&self, error: FreeError, off: f64, errors: &mut [Errors]) {
+        let k = error.source as usize;
+        let of = errors.iter_mut().enumerate().filter(|(recording, _)| error.is_of(*recording));
+        of.for_each(|(_, errors)| errors[k] += off * self.sigmas[k]);
     }
 }
 
@@ -111,6 +150,18 @@ pub(super) struct Explained {
 }
 
 impl Explained {
+    /// Some of the blocks, of which these are `asked` for.
+    pub fn part(&self, part: Range<usize>, blocks: &[Block], asked: &[bool]) -> Self {
+        let is_lost = |k: &usize| self.residuals[*k].is_none() && !blocks[*k].is_left_out;
+        let (unreached, others): (Vec<usize>, Vec<usize>) = part.clone().filter(is_lost).partition(|k| asked[*k]);
+        Self {
+            residuals: self.residuals[part.clone()].to_vec(),
+            labels: self.labels[part].to_vec(),
+            unreached: unreached.len(),
+            others: others.len(),
+        }
+    }
+
     /// Without the blocks from a jump on along which the model is on the other side of it: those are not reached.
     fn without_branch(&mut self, from_jump: impl Iterator<Item = usize>) {
         for k in from_jump.skip_while(|k| self.residuals[*k].is_none()).collect::<Vec<_>>() {
@@ -193,7 +244,7 @@ impl<'a, R: PhysicalRod> Fit<'a, R> {
 }
 
 impl<R: PhysicalRod> Fit<'_, R> {
-    fn errors(&self, x: &DVector<f64>) -> Errors {
+    fn errors(&self, x: &DVector<f64>) -> Vec<Errors> {
         self.sources.errors(x.iter().skip(self.curve.count()))
     }
 
@@ -208,27 +259,30 @@ impl<R: PhysicalRod> Fit<'_, R> {
         counted.map(|(residual, _)| cost_of(residual.map(|residual| residual.norm()))).sum()
     }
 
-    /// The blocks without the errors.
-    pub fn corrected(&self, errors: &Errors) -> Option<Vec<Corrected>> {
-        let (correction, length) = (Correction::new(self.blocks.frame, errors)?, self.rod.units().length);
-        let of = |block: &Block| {
-            let apply = |clamp: &Clamp| {
-                let clamp = correction.apply(block.tau, clamp, &still(block.motion)).0;
-                (Vector3::new(clamp.pose.x * length, clamp.pose.y * length, clamp.pose.z), clamp.reactions)
-            };
-            let (pose, reactions) = apply(&block.clamp);
-            let (mut by_reactions, mut pose_by_reactions) = (Matrix3::zeros(), Matrix3::zeros());
-            // the correction is linear in the reactions
-            for c in 0..3 {
-                let mut other = block.clamp;
-                other.reactions[c] += 1.0;
-                let (there, shown) = apply(&other);
-                by_reactions.set_column(c, &(shown - reactions));
-                pose_by_reactions.set_column(c, &(there - pose));
-            }
-            Corrected { pose: Pose { x: pose.x, y: pose.y, phi: pose.z }, reactions, by_reactions, pose_by_reactions }
+    /// The blocks without the errors of their recordings.
+    pub fn corrected(&self, errors: &[Errors]) -> Option<Vec<Corrected>> {
+        let corrections = self.blocks.corrections(errors)?;
+        Some(self.blocks.blocks.iter().map(|block| self.without(block, &corrections[block.recording])).collect())
+    }
+
+    /// A block without its errors.
+    fn without(&self, block: &Block, correction: &Correction) -> Corrected {
+        let length = self.rod.units().length;
+        let apply = |clamp: &Clamp| {
+            let clamp = block.corrected(clamp, correction);
+            (Vector3::new(clamp.pose.x * length, clamp.pose.y * length, clamp.pose.z), clamp.reactions)
         };
-        Some(self.blocks.blocks.iter().map(of).collect())
+        let (pose, reactions) = apply(&block.clamp);
+        let (mut by_reactions, mut pose_by_reactions) = (Matrix3::zeros(), Matrix3::zeros());
+        // the correction is linear in the reactions
+        for c in 0..3 {
+            let mut other = block.clamp;
+            other.reactions[c] += 1.0;
+            let (there, shown) = apply(&other);
+            by_reactions.set_column(c, &(shown - reactions));
+            pose_by_reactions.set_column(c, &(there - pose));
+        }
+        Corrected { pose: Pose { x: pose.x, y: pose.y, phi: pose.z }, reactions, by_reactions, pose_by_reactions }
     }
 
     /// The reactions of a state, dimensionless.
@@ -306,21 +360,33 @@ impl<R: PhysicalRod> Fit<'_, R> {
         Some(Rates { by_pose: Matrix3::from_fn(|c, j| stiffness[c][j] / size[c]), by_offsets })
     }
 
-    /// The blocks without errors of which each is a step larger.
-    fn stepped(&self, x: &DVector<f64>) -> Option<Vec<Vec<Corrected>>> {
+    /// For each error, what takes the errors off each recording if this one is a step larger.
+    fn stepped(&self, x: &DVector<f64>) -> Option<Vec<Vec<Correction>>> {
         let errors = self.errors(x);
-        let with_step = |k: &usize| {
-            let mut other = errors;
-            other[*k] += STEP * self.sources.sigmas[*k];
-            self.corrected(&other)
+        let with_step = |error: &FreeError| {
+            let mut other = errors.clone();
+            self.sources.add(*error, STEP, &mut other);
+            self.blocks.corrections(&other)
         };
         self.sources.free.iter().map(with_step).collect()
     }
 
-    /// The length and the bending stiffness of the rod over the given ones.
+    /// The errors of a block, by number, with the block as it is if one of them is a step larger.
+    fn with_steps<'b>(
+        &'b self,
+        block: &'b Block,
+        stepped: &'b [Vec<Correction>],
+    ) -> impl Iterator<Item = (usize, Corrected)> + 'b {
+        let of_block = |(i, error): (usize, &FreeError)| error.is_of(block.recording).then_some(i);
+        let numbers = self.sources.free.iter().enumerate().filter_map(of_block);
+        numbers.map(|i| (i, self.without(block, &stepped[i][block.recording])))
+    }
+
+    /// The length and the bending stiffness of the rod, which is that of all recordings, over the given ones.
     pub fn rod_over_given(&self, x: &DVector<f64>) -> (f64, f64) {
         let errors = self.errors(x);
-        (1.0 + errors[Source::Length as usize], 1.0 + errors[Source::Stiffness as usize])
+        let of = |source: Source| errors.first().map_or(1.0, |errors| 1.0 + errors[source as usize]);
+        (of(Source::Length), of(Source::Stiffness))
     }
 
     /// How the contacts of each block change with the unknowns; none at a fold, and where the model has no state.
@@ -336,7 +402,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
         Model { curve, objects, corrected, .. }: &Model,
         block: usize,
         state: &State,
-        stepped: &[Vec<Corrected>],
+        stepped: &[Vec<Correction>],
     ) -> Option<Vec<ContactRates>> {
         let (longer, _) = self.rod_over_given(x);
         let mut by = vec![ContactRates { longer, ..ContactRates::default() }; state.contacts.len()];
@@ -349,13 +415,13 @@ impl<R: PhysicalRod> Fit<'_, R> {
         by_offsets(&derivatives, curve, state, |_| true).iter().for_each(|(i, response)| add(*i, response, 1.0));
         let moves = [Quantity::ClampX, Quantity::ClampY, Quantity::ClampAngle];
         let by_pose: Vec<Response> = moves.into_iter().filter_map(|by| derivatives.by(by).ok()).collect();
-        for (i, other) in stepped.iter().enumerate() {
-            let (from, to) = (corrected[block].pose, other[block].pose);
+        for (i, other) in self.with_steps(&self.blocks.blocks[block], stepped) {
+            let (from, to) = (corrected[block].pose, other.pose);
             for (response, moved) in by_pose.iter().zip([to.x - from.x, to.y - from.y, to.phi - from.phi]) {
                 add(curve.count() + i, response, moved / STEP);
             }
         }
-        if let Some(i) = self.sources.free.iter().position(|k| *k == Source::Length as usize) {
+        if let Some(i) = self.sources.free.iter().position(|error| error.source == Source::Length) {
             let sigma = self.sources.sigmas[Source::Length as usize];
             for (by, contact) in by.iter_mut().zip(&state.contacts) {
                 by.by_length = Some((curve.count() + i, Vector2::new(contact.x, contact.y) * sigma));
@@ -386,8 +452,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 let rate = here.residual(&(here.reactions + rate), &by_pose, block) - without;
                 (0..3).for_each(|c| by[c].push((i, rate[c])));
             }
-            for (i, other) in stepped.iter().enumerate() {
-                let there = &other[k];
+            for (i, there) in self.with_steps(block, &stepped) {
                 let (from, to) = (here.pose, there.pose);
                 let moved = Vector3::new(to.x - from.x, to.y - from.y, to.phi - from.phi);
                 let rate = (there.residual(&(model + by_pose * moved), &by_pose, block) - residual) / STEP;

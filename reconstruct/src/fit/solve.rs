@@ -1,14 +1,14 @@
 //! The best contour and errors from a start on.
 
-use super::blocks::{Block, Blocks};
+use super::blocks::{Block, Blocks, Part};
 use super::curve::{Curve, Node};
 use super::finer::finer;
 use super::flatten::flattened;
 use super::grow::{Grown, grown};
 use super::posterior::Posterior;
-use super::problem::{Explained, Fit, LOST, Model, Sources};
+use super::problem::{Explained, Fit, FreeError, LOST, Model, Sources};
 use super::propose::{joined, sharpened};
-use super::simple::Best;
+use super::simple::{Best, SimpleShape};
 use super::start::Start;
 use super::trim::touched;
 use super::verdict::{Goodness, MOST_UNREACHED};
@@ -20,6 +20,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use rod_contact::State;
 use rod_core::{PhysicalRod, Rod, Sample};
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// Most changes of a contour, one after the other.
 const CHANGES: usize = 10;
@@ -273,8 +274,7 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     // unknowns that the prior alone determines count for nothing
     let prior = fit.prior(&x, &curve).matrix;
     let determined = x.len() as f64 - (&covariance * prior).trace();
-    let off = |(i, k): (usize, &usize)| (Source::ALL[*k], x[count + i]);
-    let farthest = fit.sources.free.iter().enumerate().map(off).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let farthest = farthest(&x, count, fit.sources, None);
     let goodness = Goodness::of(&explained, &fit.blocks.blocks, determined, farthest);
     fit.states.clone_from(&states);
     let spread = covariance.diagonal().iter().skip(count).map(|variance| variance.max(0.0).sqrt()).collect();
@@ -282,6 +282,13 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     let cost = equations.cost + LOST * explained.others as f64;
     let (asked, bend) = (fit.asked.clone(), fit.bend);
     Some(Solved { x, curve, asked, cost, covariance, spread, bend, explained, states, goodness })
+}
+
+/// The error that is farthest off what is known of it, in standard deviations of its budget: of all, or of a recording. The errors come after `count` other
+/// unknowns.
+fn farthest(x: &DVector<f64>, count: usize, sources: &Sources, recording: Option<usize>) -> Option<(Source, f64)> {
+    let own = sources.free.iter().enumerate().filter(|(_, error)| recording.is_none_or(|own| error.is_of(own)));
+    own.map(|(i, error)| (error.source, x[count + i])).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
 }
 
 impl Solved {
@@ -311,10 +318,11 @@ impl Solved {
         self.x.rows(count, self.x.len() - count).into_owned()
     }
 
-    /// What is known of the errors.
-    pub fn posterior(&self) -> Posterior {
+    /// What is known of the errors, of `possible` ones.
+    pub fn posterior(&self, possible: usize) -> Posterior {
         let (count, all) = (self.curve.count(), self.x.len() - self.curve.count());
-        Posterior { errors: self.errors(), covariance: self.covariance.view((count, count), (all, all)).into_owned() }
+        let covariance = self.covariance.view((count, count), (all, all)).into_owned();
+        Posterior { errors: self.errors(), covariance, possible }
     }
 
     /// With other standard deviations of the errors, in those of their budget.
@@ -363,15 +371,17 @@ impl Solved {
         }
     }
 
-    /// The fit to `samples`; `given` is a uniform rod of the length and the stiffness at the clamp of `rod`.
-    pub fn result<R: PhysicalRod>(
-        self,
+    /// The fit to each recording, whose `samples` come one recording after the other; `given` is a uniform rod of the length and the stiffness at the clamp
+    /// of `rod`.
+    pub fn results<R: PhysicalRod>(
+        mut self,
         rod: &R,
         samples: &[Sample],
         blocks: &Blocks,
         sources: &Sources,
         given: &Rod,
-    ) -> ContourFit {
+    ) -> Vec<ContourFit> {
+        let parts = self.parts(blocks, sources);
         let Self { x, curve, covariance, spread, bend, explained, goodness, states, asked, .. } = self;
         let mut fit = Fit::new(rod, curve.clone(), blocks, sources);
         (fit.bend, fit.states, fit.asked) = (bend, states, asked);
@@ -385,18 +395,17 @@ impl Solved {
         let rates = model.as_ref().map(|model| fit.contact_rates(&x, model)).unwrap_or_default();
         let readings = explaining.and_then(|model| fit.answers(&x, model, &rates, &covariance, &labels, samples));
         let count = curve.count();
-        let of_source = |(i, k): (usize, &usize)| {
-            let (source, unit, budget) = (Source::ALL[*k], Source::ALL[*k].unit(given), sources.sigmas[*k]);
-            (source, (sources.known[*k] + x[count + i] * budget) * unit, spread[i] * budget * unit)
+        let errors = |recording: usize| {
+            let own = sources.free.iter().enumerate().filter(move |(_, error)| error.is_of(recording));
+            let value = |(i, error): (usize, &FreeError)| {
+                let (source, k, unit) = (error.source, error.source as usize, error.source.unit(given));
+                let (known, budget) = (sources.known[recording][k], sources.sigmas[k]);
+                (source, (known + x[count + i] * budget) * unit, spread[i] * budget * unit)
+            };
+            own.map(value).collect()
         };
-        let errors: Vec<(Source, f64, f64)> = sources.free.iter().enumerate().map(of_source).collect();
         // the model has the length of the given rod; the true one may have another
-        let length = errors.iter().find(|one| one.0 == Source::Length).map_or(1.0, |one| 1.0 + one.1);
-        let block = |(k, block): (usize, &Block)| FittedBlock {
-            samples: block.samples.clone(),
-            label: labels[k],
-            residuals: explained.residuals[k].map(Into::into),
-        };
+        let (length, _) = fit.rod_over_given(&x);
         let known = model.as_ref().map(|model| fit.known(model, &rates, &covariance, &labels));
         let known =
             known.unwrap_or_else(|| curve.chains().map(|chain| chain.map(|_| Knowledge::Unknown).collect()).collect());
@@ -408,15 +417,47 @@ impl Solved {
             vertices: (0..nodes.len()).filter(|i| nodes[*i].is_vertex).collect(),
             known: known.into_iter().map(|one| one.scaled(length)).collect(),
         };
-        ContourFit {
-            objects: curve.nodes_of_chains().iter().zip(known).map(object).collect(),
-            shapes: shapes.into_iter().map(|shape| shape.scaled(length)).collect(),
-            readings: readings.unwrap_or_default(),
-            length: given.length(),
-            ringing: blocks.ringing,
-            errors,
-            goodness,
-            blocks: blocks.blocks.iter().enumerate().map(block).collect(),
-        }
+        let objects: Vec<FittedObject> = curve.nodes_of_chains().iter().zip(known).map(object).collect();
+        let shapes: Vec<SimpleShape> = shapes.into_iter().map(|shape| shape.scaled(length)).collect();
+        let of_recording = |(recording, (part, goodness)): (usize, (&Part, Goodness))| {
+            let Range { start, end } = part.samples;
+            let own = blocks.blocks.iter().enumerate().filter(|(_, block)| block.recording == recording);
+            let block = |(k, block): (usize, &Block)| FittedBlock {
+                samples: block.samples.start - start..block.samples.end - start,
+                label: labels[k],
+                residuals: explained.residuals[k].map(Into::into),
+            };
+            ContourFit {
+                objects: objects.clone(),
+                shapes: shapes.clone(),
+                errors: errors(recording),
+                goodness,
+                blocks: own.map(block).collect(),
+                ringing: part.ringing,
+                readings: readings.as_ref().map_or_else(Vec::new, |readings| readings[start..end].to_vec()),
+                length: given.length(),
+            }
+        };
+        blocks.recordings.iter().zip(parts).enumerate().map(of_recording).collect()
+    }
+
+    /// How well each recording is explained; not at all if another is not.
+    fn parts(&mut self, blocks: &Blocks, sources: &Sources) -> Vec<Goodness> {
+        let (count, all) = (self.curve.count(), 3.0 * self.explained.residuals.iter().flatten().count() as f64);
+        let determined = all - self.goodness.degrees_of_freedom;
+        let of_recording = |recording: usize| {
+            let is_own = |k: &usize| blocks.blocks[*k].recording == recording;
+            let own: Vec<usize> = (0..blocks.blocks.len()).filter(is_own).collect();
+            let Range { start, end } = own.first().map_or(0..0, |first| *first..first + own.len());
+            let part = self.explained.part(start..end, &blocks.blocks, &self.asked);
+            let residuals = 3.0 * part.residuals.iter().flatten().count() as f64;
+            let farthest = farthest(&self.x, count, sources, Some(recording));
+            // unknowns count where the residuals are that determine them
+            Goodness::of(&part, &blocks.blocks[start..end], determined * residuals / all.max(1.0), farthest)
+        };
+        let mut parts: Vec<Goodness> = (0..blocks.recordings.len()).map(of_recording).collect();
+        self.goodness.explains &= parts.iter().all(|part| part.explains);
+        parts.iter_mut().for_each(|part| part.explains = self.goodness.explains);
+        parts
     }
 }

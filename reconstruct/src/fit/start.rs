@@ -9,7 +9,7 @@ use crate::kink::KinkKind;
 use crate::phase::Label;
 use crate::pipeline::Reconstruction;
 use crate::point::{OneSample, Touch, one_sample};
-use crate::systematic::{Correction, Errors, still};
+use crate::systematic::Errors;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use rod_contact::{Contact, ContactKind};
 use rod_core::{PhysicalRod, Rod};
@@ -55,21 +55,22 @@ pub(super) struct Start {
 }
 
 /// Where the fit of a recording may start, the most likely first. `given` is a uniform rod of the length and the stiffness at the clamp of `rod`;
-/// `errors` are those of the local answer.
+/// `errors` are those of the local answers to the recordings.
 pub(super) fn starts<R: PhysicalRod>(
     rod: &R,
     given: &Rod,
-    local: &Reconstruction,
+    locals: &[&Reconstruction],
     mut blocks: Blocks,
-    errors: Errors,
+    errors: &[Errors],
 ) -> Vec<Start> {
-    let mut points = touched(local, given);
+    let mut points: Vec<Touched> =
+        locals.iter().enumerate().flat_map(|(k, local)| touched(local, given, first_trace(locals, k))).collect();
     let answers = Interpretation { is_sure: true, is_joined: false, is_sharp: false };
     let guesses = Interpretation { is_sure: false, ..answers };
     let joined = |reading| Interpretation { is_joined: true, ..reading };
     let of = |blocks: &Blocks, points: &[Touched], readings: &[Interpretation]| {
         let points = &along_contours(points);
-        let swept = Swept::of(rod, blocks, &errors);
+        let swept = Swept::of(rod, blocks, errors);
         let start = |reading: &Interpretation| Start {
             chains: outline(points, *reading, &swept),
             asked: vec![true; blocks.blocks.len()],
@@ -82,12 +83,13 @@ pub(super) fn starts<R: PhysicalRod>(
     let is_answered = |block: &Block| block.label == Label::Free || !block.contacts.is_empty();
     let answered: Vec<bool> = blocks.blocks.iter().map(is_answered).collect();
     let parts: Vec<Start> = starts.iter().map(|start| Start { asked: answered.clone(), ..start.clone() }).collect();
-    let doubtful = doubtful(local);
+    let doubtful: BTreeSet<usize> =
+        locals.iter().enumerate().flat_map(|(k, local)| doubtful(local, first_trace(locals, k))).collect();
     let certain: Vec<Touched> = points.iter().filter(|point| !doubtful.contains(&point.trace)).copied().collect();
     if certain.len() < points.len() {
         starts.extend(of(&blocks, &certain, &[answers]));
     }
-    let singles = singles(rod, local, &mut blocks, &errors);
+    let singles = singles(rod, locals, &mut blocks, errors);
     if !singles.is_empty() {
         points.extend(singles);
         starts.extend(of(&blocks, &points, &[guesses, joined(guesses)]));
@@ -103,12 +105,17 @@ pub(super) fn starts<R: PhysicalRod>(
     starts
 }
 
-/// The contact points of the local answer, in lengths of its rod. Between two kinks, each contact of the rod is one trace.
-fn touched(local: &Reconstruction, given: &Rod) -> Vec<Touched> {
+/// The number of the first trace of a recording. Between two of its kinks, each contact of the rod is one trace.
+fn first_trace(locals: &[&Reconstruction], recording: usize) -> usize {
+    locals[..recording].iter().map(|local| 2 * (local.kinks.len() + 1)).sum()
+}
+
+/// The contact points of the local answer to a recording with this first trace, in lengths of its rod.
+fn touched(local: &Reconstruction, given: &Rod, first_trace: usize) -> Vec<Touched> {
     let length = local.calibration().map_or(given.length(), |calibration| calibration.rod(given).length());
     let mut points = Vec::new();
     for (number, reading) in local.readings.iter().enumerate() {
-        let first = 2 * kinks_before(local, number);
+        let first = first_trace + 2 * kinks_before(local, number);
         let second = reading.second.and_then(Result::ok);
         points.extend(reading.touch.ok().map(|touch| Touched::by(&touch, length, first)));
         points.extend(second.map(|touch| Touched::by(&touch, length, first + 1)));
@@ -118,7 +125,7 @@ fn touched(local: &Reconstruction, given: &Rod) -> Vec<Touched> {
 
 /// The traces of a phase of one contact that a kink parts from a longer one of the same phase: a second contact may come or go there, which noise hides
 /// from the local answer.
-fn doubtful(local: &Reconstruction) -> BTreeSet<usize> {
+fn doubtful(local: &Reconstruction, first_trace: usize) -> BTreeSet<usize> {
     let mut found = BTreeSet::new();
     for (Range { start, end }, label) in local.phases().filter(|(_, label)| !label.several()) {
         let inner =
@@ -126,7 +133,7 @@ fn doubtful(local: &Reconstruction) -> BTreeSet<usize> {
         let cuts: Vec<usize> = std::iter::once(start).chain(inner.map(|kink| kink.next)).chain([end]).collect();
         let longest = cuts.windows(2).max_by_key(|cut| cut[1] - cut[0]).map(|cut| cut[0]);
         let others = cuts[..cuts.len() - 1].iter().filter(|from| label != Label::Free && Some(**from) != longest);
-        found.extend(others.map(|from| 2 * kinks_before(local, *from)));
+        found.extend(others.map(|from| first_trace + 2 * kinks_before(local, *from)));
     }
     found
 }
@@ -161,12 +168,19 @@ fn kinks_before(local: &Reconstruction, sample: usize) -> usize {
 }
 
 /// Gives blocks without an answer the single contact that their reactions, without these errors, would have, and returns those points.
-fn singles<R: PhysicalRod>(rod: &R, local: &Reconstruction, blocks: &mut Blocks, errors: &Errors) -> Vec<Touched> {
+fn singles<R: PhysicalRod>(
+    rod: &R,
+    locals: &[&Reconstruction],
+    blocks: &mut Blocks,
+    errors: &[Errors],
+) -> Vec<Touched> {
     let units = rod.units();
-    let Some(correction) = Correction::new(blocks.frame, errors) else { return Vec::new() };
+    let Some(corrections) = blocks.corrections(errors) else { return Vec::new() };
+    let starts: Vec<usize> = blocks.recordings.iter().map(|part| part.samples.start).collect();
     let mut found = Vec::new();
     for block in blocks.blocks.iter_mut().filter(|block| block.contacts.is_empty()) {
-        let clamp = correction.apply(block.tau, &block.clamp, &still(block.motion)).0;
+        let recording = block.recording;
+        let clamp = block.corrected(&block.clamp, &corrections[recording]);
         if clamp.reactions.component_div(&block.sigma).xy().norm() < CERTAIN {
             continue;
         }
@@ -179,7 +193,8 @@ fn singles<R: PhysicalRod>(rod: &R, local: &Reconstruction, blocks: &mut Blocks,
         };
         let kind = if matches!(contact, OneSample::Tip(_)) { ContactKind::Tip } else { ContactKind::Tangent };
         block.contacts = vec![Contact { kind, s: touch.s.min(units.length), ..touch.into() }];
-        let point = Touched::by(&touch, units.length, 2 * kinks_before(local, block.samples.start));
+        let kinks = kinks_before(locals[recording], block.samples.start - starts[recording]);
+        let point = Touched::by(&touch, units.length, first_trace(locals, recording) + 2 * kinks);
         found.push(Touched { weight: point.weight * block.samples.len() as f64, ..point });
     }
     found

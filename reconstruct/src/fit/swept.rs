@@ -2,7 +2,7 @@
 
 use super::bent::{bent, push, whole};
 use super::blocks::{Block, Blocks};
-use crate::systematic::{Correction, Errors, still};
+use crate::systematic::Errors;
 use nalgebra::Vector2;
 use rod_contact::State;
 use rod_core::{Elastica, PhysicalRod, RodModel};
@@ -24,13 +24,12 @@ pub(super) struct Swept {
 
 impl Swept {
     /// Of the blocks whose contacts are known.
-    pub fn of<R: PhysicalRod>(rod: &R, blocks: &Blocks, errors: &Errors) -> Self {
-        let Some(correction) = Correction::new(blocks.frame, errors) else { return Self::default() };
+    pub fn of<R: PhysicalRod>(rod: &R, blocks: &Blocks, errors: &[Errors]) -> Self {
+        let Some(corrections) = blocks.corrections(errors) else { return Self::default() };
         let units = rod.units();
         let known: Vec<_> = blocks.blocks.iter().filter(|block| !block.contacts.is_empty()).collect();
         let shape = |block: &&Block| {
-            let clamp = correction.apply(block.tau, &block.clamp, &still(block.motion)).0;
-            let (pose, reactions) = clamp.in_units(units);
+            let (pose, reactions) = block.corrected(&block.clamp, &corrections[block.recording]).in_units(units);
             let (last, others) = block.contacts.split_last()?;
             let mut forces: Vec<_> =
                 others.iter().map(|contact| (contact.s, push(contact.alpha) * contact.force)).collect();

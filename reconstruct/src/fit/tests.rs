@@ -1,6 +1,6 @@
 #![expect(clippy::print_stdout, reason = "prints the numbers that the page on reconstruction names")]
 
-use super::{ContourFit, FitError, ShapeKind, fit_contour};
+use super::{ContourFit, FitError, ShapeKind, fit_contour, fit_contours};
 use crate::{Ar1, Budget, Label, NoiseModel, Reconstruction, Settings, Source, disturb, reconstruct_passes};
 use rod_contact::{ClampPath, State, Sweep};
 use rod_contours::{CircularArc, Composite, Contour, Parabola};
@@ -233,6 +233,50 @@ fn what_no_contour_explains_is_said_with_its_place() {
     assert!(worst.samples.start >= 1500 && worst.samples.end <= 2000, "{worst:?}");
 }
 
+/// A recording, and its errors.
+type Disturbed = (Vec<Sample>, [(Source, f64); 3]);
+
+/// Three scans of one object whose sensor was tared anew before each, while its clamp stayed at a wrong angle.
+fn three_scans(rod: &Rod) -> Vec<Disturbed> {
+    let scan = |(k, height): (usize, f64)| {
+        let clamp = |x| Pose { x, y: height, phi: std::f64::consts::FRAC_PI_2 };
+        let path = ClampPath::new(clamp(0.08), clamp(-0.09)).unwrap();
+        let bias = 1e-2 * (1.0 - k as f64);
+        let errors = [(Source::BiasF0x, bias), (Source::BiasF0y, -0.5 * bias), (Source::ClampAngle, 8e-3)];
+        let states = Sweep::new(rod, &object(), path, 2.5e-4).unwrap().run().states;
+        let size = |source| errors.iter().find(|error| error.0 == source).map_or(0.0, |error| error.1);
+        let mut samples = disturb(rod, &samples(&states), size).unwrap().1;
+        noisy(&mut samples, 5 + k as u64);
+        (samples, errors)
+    };
+    [-0.06, -0.045, -0.025].into_iter().enumerate().map(scan).collect()
+}
+
+#[test]
+fn recordings_of_one_object_share_a_contour_and_the_errors_of_rod_and_clamp() {
+    let rod = steel();
+    let settings = Settings { budget: Some(Budget::laboratory(&rod)), ..AS_IS };
+    let scans = three_scans(&rod);
+    let found: Vec<Reconstruction> =
+        scans.iter().map(|(samples, _)| reconstruct_passes(&rod, samples, &settings).unwrap()).collect();
+    let recordings: Vec<(&[Sample], &Reconstruction)> =
+        scans.iter().zip(&found).map(|((samples, _), local)| (&samples[..], local)).collect();
+    let fits = fit_contours(&rod, &recordings).unwrap();
+    let of_angle = |fit: &ContourFit| fit.errors.iter().find(|error| error.0 == Source::ClampAngle).map(|one| one.2);
+    for (fit, (local, (samples, errors))) in fits.iter().zip(found.iter().zip(&scans)) {
+        assert!(fit.goodness.explains, "{:?}", fit.goodness);
+        assert_eq!((fit.readings.len(), &fit.objects), (samples.len(), &fits[0].objects));
+        for (source, value, sigma) in &fit.errors {
+            let truth = errors.iter().find(|error| error.0 == *source).map_or(0.0, |error| error.1);
+            println!("{source}: {value:.2e} +- {sigma:.1e}, true {truth:.2e}");
+            assert!((value - truth).abs() < 3.0 * sigma, "{source}: {value} +- {sigma}, true {truth}");
+        }
+        let alone = fit_contour(&rod, samples, local).unwrap();
+        assert!(alone.goodness.explains, "{:?}", alone.goodness);
+        assert!(of_angle(&alone).is_none_or(|alone| of_angle(fit).unwrap() < 0.5 * alone), "{:?}", alone.errors);
+    }
+}
+
 #[test]
 fn a_recording_without_contacts_has_no_fit() {
     let rod = steel();
@@ -249,6 +293,7 @@ fn derivatives_of_the_cost_are_its_differences() {
     use super::curve::{Curve, Node};
     use super::problem::{Fit, Sources};
     use crate::least_squares::Problem;
+    use crate::systematic::Errors;
     use nalgebra::{DVector, Vector2};
     let rod = steel();
     let corner = Composite::polyline(&[[-0.0705, 0.15], [-0.003, 0.001], [0.0825, 0.15]]).unwrap();
@@ -259,7 +304,7 @@ fn derivatives_of_the_cost_are_its_differences() {
     noisy(&mut samples, 0);
     let local = reconstruct_passes(&rod, &samples, &AS_IS).unwrap();
     let blocks = super::Blocks::of(&rod, &samples, &local).unwrap();
-    let sources = Sources::default();
+    let sources = Sources { known: vec![Errors::zeros()], ..Sources::default() };
     for shift in [0.0, 2e-4] {
         let node = |x: f64, y: f64, is_vertex| Node { at: Vector2::new(x, y + shift), is_vertex, sigma: 0.01 };
         let chain = [

@@ -66,7 +66,7 @@ struct Growth<'a, 'b, R> {
 
 /// A contour that explains more of a recording than `curve`, of which the fit has the states; none if none is found. And the number of evaluations
 /// of the model that this took.
-pub(super) fn grown<R: PhysicalRod>(fit: &Fit<'_, R>, errors: Errors, curve: &Curve) -> (Option<Grown>, usize) {
+pub(super) fn grown<R: PhysicalRod>(fit: &Fit<'_, R>, errors: Vec<Errors>, curve: &Curve) -> (Option<Grown>, usize) {
     let mut now = Grown { chains: curve.nodes_of_chains(), states: fit.states.clone(), asked: fit.asked.clone() };
     let mut growth = Growth {
         fit,

@@ -33,7 +33,7 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         blocks.iter_mut().for_each(|block| block.contacts.clear());
         let states = vec![None; blocks.len()];
         let segments = std::iter::once(0..blocks.len()).collect();
-        let blocks = Blocks { blocks, segments, frame: self.fit.blocks.frame, ringing: 0 };
+        let blocks = Blocks { blocks, segments, recordings: self.fit.blocks.recordings.clone() };
         Window { range, blocks, states }
     }
 
