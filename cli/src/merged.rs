@@ -4,7 +4,7 @@ use crate::{WriteError, figure};
 use rod_files::Staged;
 use rod_files::output::{pretty_json, write_csv};
 use rod_files::table::Table;
-use rod_files::{CONTOUR_COLUMNS, Reconstructed};
+use rod_files::{CONTOUR_COLUMNS, Reconstructed, Together};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -22,6 +22,8 @@ pub struct Merged {
     combined: Option<Combined>,
     /// Where their contours disagree, in order of x.
     disagreements: Vec<Disagreement>,
+    /// Whether one contour explains all; none where that was not looked at.
+    together: Option<Together>,
 }
 
 /// Part of the merged contour's length in which contours may disagree by chance, as at corners.
@@ -44,6 +46,7 @@ struct MergedScan {
 struct MergedRecord<'a> {
     scans: &'a [MergedScan],
     align: Option<f64>,
+    together: Option<Together>,
     chi_squared: Option<f64>,
     freedom: Option<usize>,
     contradict: bool,
@@ -62,7 +65,7 @@ struct DisagreementRecord {
 impl Merged {
     /// Of reconstructions, whose names are made distinct: they are folders. With a direction (radians) for `direction`, scans are moved
     /// along it onto each other; otherwise their poses are in one frame. Scans that do not fit their rod do not count.
-    pub fn of(found: &mut [Reconstructed], direction: Option<f64>) -> Self {
+    pub fn of(found: &mut [Reconstructed], direction: Option<f64>, together: Option<Together>) -> Self {
         distinct(found);
         let fitting = || found.iter().filter(|one| one.fits());
         let contours: Vec<ContourEstimate> = fitting().map(|one| one.contour.clone()).collect();
@@ -89,13 +92,17 @@ impl Merged {
             }
         };
         let scans = found.iter().map(scan).collect();
-        Self { scans, align: direction, contour, combined: Combined::of(&calibrations), disagreements }
+        // errors that were fitted together do not differ
+        let is_one = together.is_some_and(|together| together.explains);
+        let combined = if is_one { None } else { Combined::of(&calibrations) };
+        Self { scans, align: direction, contour, combined, disagreements, together }
     }
 
     /// Why the scans contradict each other, if they do: errors of rod, sensor, clamp or stage that should stay the same differ, or contours
-    /// of one place are apart.
-    pub fn contradictions(&self) -> Vec<String> {
-        let mut found = Vec::new();
+    /// of one place are apart, or no contour explains all of these `recordings`.
+    pub fn contradictions(&self, recordings: &[Reconstructed]) -> Vec<String> {
+        let mut found: Vec<String> =
+            self.together.iter().filter_map(|together| together.contradiction(recordings)).collect();
         if let Some(Combined { chi_squared, freedom, .. }) = self.combined.as_ref().filter(|all| all.contradicts()) {
             found.push(format!(
                 "the scans contradict each other: errors of rod, sensor, clamp or stage that should stay the same differ (chi-squared \
@@ -127,14 +134,15 @@ impl Merged {
     ///
     /// # Errors
     /// [`WriteError`].
-    pub fn write(&self, staged: &Staged) -> Result<(), WriteError> {
-        let Self { scans, align, combined, .. } = self;
+    pub fn write(&self, staged: &Staged, recordings: &[Reconstructed]) -> Result<(), WriteError> {
+        let Self { scans, align, combined, together, .. } = self;
         let record = MergedRecord {
             scans,
             align: *align,
+            together: *together,
             chi_squared: combined.as_ref().map(|combined| combined.chi_squared),
             freedom: combined.as_ref().map(|combined| combined.freedom),
-            contradict: !self.contradictions().is_empty(),
+            contradict: !self.contradictions(recordings).is_empty(),
             disagree: self.disagreements.iter().map(DisagreementRecord::from).collect(),
         };
         staged.write(Path::new("contour.csv"), |file| write_csv(file, &CONTOUR_COLUMNS, self.contour.rows()))?;
@@ -154,6 +162,16 @@ impl Merged {
             table.row([folder.clone(), fits.to_owned(), format!("{:.4}", 1e3 * offset), group]);
         }
         text += &table.to_string();
+        if let Some(Together { recordings, explains, chi_squared, degrees_of_freedom }) = &self.together {
+            let of = format!("chi squared {chi_squared:.0} of {degrees_of_freedom:.0} degrees of freedom");
+            let _ = match explains {
+                true => writeln!(
+                    text,
+                    "one contour explains {recordings} recordings, {of}; their labels, points and errors are its own"
+                ),
+                false => writeln!(text, "no contour was found that explains {recordings} recordings, {of}"),
+            };
+        }
         if let Some(Combined { chi_squared, freedom, .. }) = self.combined.as_ref().filter(|all| all.freedom > 0) {
             let verdict = if self.combined.as_ref().is_some_and(Combined::contradicts) {
                 "they contradict each other"

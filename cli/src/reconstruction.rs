@@ -5,7 +5,7 @@ use crate::error::{Error, OptionError};
 use crate::progress::stage;
 use crate::{UNFINISHED, complain, read_scene, read_setup, say, scan_of, signals, warn};
 use rod_files::{
-    CalibratedRod, LiveScan, Reconstructed, Recording, Scene, Setup, Staged, read_calibrated_rod, read_noise,
+    CalibratedRod, LiveScan, Reconstructed, Recording, Scene, Setup, Staged, Together, read_calibrated_rod, read_noise,
 };
 use std::path::Path;
 use std::process::ExitCode;
@@ -36,7 +36,7 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     let mut found = Vec::with_capacity(recordings.len());
     let mut left_out = Vec::new();
     for file in &recordings {
-        match one(file, &scan, &given.rod, &settings, truth.as_deref(), !local) {
+        match one(file, &scan, &given.rod, &settings) {
             Ok(one) => found.push(one),
             Err(error) => left_out.push(error),
         }
@@ -47,6 +47,21 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     {
         return Err(error);
     }
+    let together = match &mut found[..] {
+        _ if local => None,
+        [one] => {
+            stage(&format!("{}: fitting one contour to the whole recording", one.recording.file.display()));
+            one.fit(&settings);
+            None
+        }
+        // scans that are to be moved are not in one frame
+        several if align.is_some() => {
+            several.iter_mut().for_each(|one| one.fit(&settings));
+            None
+        }
+        several => Together::fit(several, &settings, |what| stage(&what)),
+    };
+    left_out.extend(found.iter_mut().filter_map(|one| judge(one, &settings, truth.as_deref()).err()));
     let complete = left_out.is_empty();
     left_out.into_iter().for_each(complain);
     if let ([one], 1) = (&found[..], recordings.len()) {
@@ -59,14 +74,14 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     } else {
         let out = out.unwrap_or_else(|| Path::new("out").join("merged"));
         let staged = Staged::new(&out)?.keeping(scan.inputs);
-        let merged = Merged::of(&mut found, align.map(f64::to_radians));
+        let merged = Merged::of(&mut found, align.map(f64::to_radians), together);
         found.iter().try_for_each(|one| write_reconstruction(one, &staged, Path::new(&one.name)))?;
-        merged.write(&staged)?;
+        merged.write(&staged, &found)?;
         staged.publish()?;
         found.iter().for_each(|one| say(&format!("{}\n", one.summary())));
         say(&merged.summary());
         say(&format!("written to {}\n", out.display()));
-        let contradictions = merged.contradictions();
+        let contradictions = merged.contradictions(&found);
         contradictions.iter().for_each(|why| warn(&format!("warning: {why}\n")));
         let code = verdict(&found);
         return Ok(match (complete, contradictions.is_empty()) {
@@ -75,7 +90,8 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
             _ => code,
         });
     }
-    Ok(verdict(&found))
+    let code = verdict(&found);
+    Ok(if complete { code } else { ExitCode::FAILURE })
 }
 
 /// Refuses the options that say something of errors that all samples share, of which nothing is known for such a rod.
@@ -91,24 +107,18 @@ fn refuse_errors(setup: &Setup) -> Result<(), Error> {
     Err(OptionError { option: "--setup", why }.into())
 }
 
-/// Reads and reconstructs one recording.
-fn one(
-    file: &Path,
-    scan: &LiveScan,
-    rod: &AnyRod,
-    settings: &Settings,
-    truth: Option<&Path>,
-    fit: bool,
-) -> Result<Reconstructed, Error> {
+/// Reads one recording, and reconstructs its samples.
+fn one(file: &Path, scan: &LiveScan, rod: &AnyRod, settings: &Settings) -> Result<Reconstructed, Error> {
     let name = file.display();
     stage(&format!("{name}: reading"));
     let recording = read(file, scan)?;
     stage(&format!("{name}: kinks, phases, errors and contact points of {} samples", recording.samples().count()));
-    let mut found = Reconstructed::new(recording, rod.clone(), settings)?;
-    if fit {
-        stage(&format!("{name}: fitting one contour to the whole recording"));
-        found.fit(settings);
-    }
+    Ok(Reconstructed::new(recording, rod.clone(), settings)?)
+}
+
+/// Looks for the cause of a misfit, and compares with the truth.
+fn judge(found: &mut Reconstructed, settings: &Settings, truth: Option<&Path>) -> Result<(), Error> {
+    let name = found.recording.file.display().to_string();
     if !found.fits() {
         stage(&format!("{name}: looking for the cause of the misfit"));
         found.explain(settings);
@@ -117,7 +127,7 @@ fn one(
         stage(&format!("{name}: comparing with the scene"));
         found.compare(Scene::read(scene)?)?;
     }
-    Ok(found)
+    Ok(())
 }
 
 /// Reads a recording of any kind, and tells of what cannot be used of it.

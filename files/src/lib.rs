@@ -51,7 +51,7 @@ pub use planned::{PlanFileError, PlanRequest, Planned, measurement, read_known_c
 pub use profile::{Profile, ProfileError, ProfilePoint, write_profile_table};
 pub use reached::{OutlinePart, Reached, Touch};
 pub use reconstructed::{
-    CONTOUR_COLUMNS, Comparison, FittedPoint, Reconstructed, ReconstructionError, Transition, TruthError,
+    CONTOUR_COLUMNS, Comparison, FittedPoint, Reconstructed, ReconstructionError, Together, Transition, TruthError,
     confounders_text, naive_touch,
 };
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};

@@ -104,17 +104,21 @@ impl Reconstructed {
             Some(rod) => fit_contour(rod, &self.samples, &self.found),
             None => fit_contour(&self.rod, &self.samples, &self.found),
         };
+        self.take(fit, settings);
+    }
+
+    /// Takes a fit over.
+    pub(super) fn take(&mut self, fit: Result<ContourFit, FitError>, settings: &Settings) {
         if let Ok(fit) = &fit
             && fit.goodness.explains
         {
             let before: Vec<Label> = self.found.readings.iter().map(|reading| reading.label).collect();
             self.found.adopt(fit, settings);
-            let after = self.found.readings.iter().map(|reading| reading.label);
             let is_one = |label: Label| !label.several() && label != Label::Free;
-            for (k, (before, after)) in before.into_iter().zip(after).enumerate() {
-                if !(is_one(before) && after.several()) {
-                    continue;
-                }
+            let after = self.found.readings.iter().map(|reading| reading.label);
+            let several = before.into_iter().zip(after).enumerate();
+            self.several_for_one.clear();
+            for (k, _) in several.filter(|(_, (before, after))| is_one(*before) && after.several()) {
                 match self.several_for_one.last_mut().filter(|run| run.end == k) {
                     Some(run) => run.end = k + 1,
                     None => self.several_for_one.push(k..k + 1),

@@ -453,7 +453,13 @@ impl Solved {
             let residuals = 3.0 * part.residuals.iter().flatten().count() as f64;
             let farthest = farthest(&self.x, count, sources, Some(recording));
             // unknowns count where the residuals are that determine them
-            Goodness::of(&part, &blocks.blocks[start..end], determined * residuals / all.max(1.0), farthest)
+            let mut goodness =
+                Goodness::of(&part, &blocks.blocks[start..end], determined * residuals / all.max(1.0), farthest);
+            let first = blocks.recordings[recording].samples.start;
+            if let Some(worst) = &mut goodness.worst {
+                worst.samples = worst.samples.start - first..worst.samples.end - first;
+            }
+            goodness
         };
         let mut parts: Vec<Goodness> = (0..blocks.recordings.len()).map(of_recording).collect();
         self.goodness.explains &= parts.iter().all(|part| part.explains);

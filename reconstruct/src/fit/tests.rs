@@ -266,6 +266,8 @@ fn recordings_of_one_object_share_a_contour_and_the_errors_of_rod_and_clamp() {
     for (fit, (local, (samples, errors))) in fits.iter().zip(found.iter().zip(&scans)) {
         assert!(fit.goodness.explains, "{:?}", fit.goodness);
         assert_eq!((fit.readings.len(), &fit.objects), (samples.len(), &fits[0].objects));
+        let worst = fit.goodness.worst.as_ref().unwrap();
+        assert!(worst.samples.end <= samples.len() && fit.blocks[0].samples.start == 0, "{worst:?}");
         for (source, value, sigma) in &fit.errors {
             let truth = errors.iter().find(|error| error.0 == *source).map_or(0.0, |error| error.1);
             println!("{source}: {value:.2e} +- {sigma:.1e}, true {truth:.2e}");
