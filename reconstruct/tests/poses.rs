@@ -83,6 +83,35 @@ fn a_clamp_that_stops_now_and_then_loses_no_samples() {
     assert!(used > 0.999 && off < 2e-5, "{used} {off:e}");
 }
 
+/// The path was smoothed over the stop, which moved the poses beside it by up to a third of the scan.
+#[test]
+fn a_stop_leaves_the_poses_beside_it_as_they_are() {
+    let clean = scan(1, 0.4, 2e-3);
+    let best = quality(&samples(&clean, |_, x| x)).1;
+    for (from, held) in [(0, 150), (390, 20), (390, 200)] {
+        let stopped = |values: &Vec<f64>| {
+            let (before, after) = values.split_at(from + 1);
+            before.iter().chain(std::iter::repeat_n(&values[from], held)).chain(after).copied().collect::<Vec<f64>>()
+        };
+        let stopped = Clean {
+            name: clean.name.clone(),
+            tau: stopped(&clean.tau),
+            channels: clean.channels.each_ref().map(stopped),
+            events: clean.events.clone(),
+        };
+        let mut noise = Noise::new(9, 0.0);
+        for trembling in [0.0, 5e-5] {
+            let samples = samples(&stopped, |_, x| x + trembling * noise.normal());
+            let (used, off) = quality(&samples);
+            println!(
+                "{held} at {from}, trembling {trembling}: {:.2} % used, {off:.2e} m off, {best:.2e} without",
+                100.0 * used
+            );
+            assert!(used > 0.999 && off < 1.5 * best + 3e-6, "{held} at {from}: {used} {off:e} {best:e}");
+        }
+    }
+}
+
 #[test]
 fn forth_and_back_are_two_passes() {
     let clean = scan(1, 0.4, 1e-4);

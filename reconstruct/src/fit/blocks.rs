@@ -92,6 +92,23 @@ struct Cut<'a> {
     least: Vector3<f64>,
 }
 
+/// Parts of at most `width` samples. A clamp that stands still for longer has one of its own: its samples have the same `index`.
+fn parts(samples: Range<usize>, width: usize, index: impl Fn(usize) -> Option<usize>) -> Vec<Range<usize>> {
+    let standing = |from: usize| {
+        let same = (from..samples.end).take_while(|k| index(*k).is_some() && index(*k) == index(from));
+        from + same.count()
+    };
+    let stops = |from: &usize| standing(*from) > from + width;
+    let (mut parts, mut start) = (Vec::new(), samples.start);
+    while start < samples.end {
+        let most = samples.end.min(start + width);
+        let end = if stops(&start) { standing(start) } else { (start + 1..most).find(stops).unwrap_or(most) };
+        parts.push(start..end);
+        start = end;
+    }
+    parts
+}
+
 /// The largest reactions of a recording, dimensionless: forces in any direction count alike.
 fn largest(units: Units, samples: &[Sample]) -> Vector3<f64> {
     let most = |of: fn(&Sample) -> f64| {
@@ -273,8 +290,8 @@ impl Cut<'_> {
         cuts.reverse();
         let (mut from, mut start, mut after_jump) = (samples.start, blocks.len(), false);
         for (end, is_jump) in cuts.into_iter().chain([(samples.end, false)]) {
-            for first in (from..end).step_by(self.width) {
-                let part = first..end.min(first + self.width);
+            let index = |k: usize| indices[k - samples.start].as_ref().ok().map(|index| index.0);
+            for part in parts(from..end, self.width, index) {
                 let usable = indices[part.start - samples.start..part.end - samples.start].iter();
                 let usable: Vec<usize> = usable.filter_map(|index| Some(index.ok()?.0)).collect();
                 if !usable.is_empty() {
@@ -339,5 +356,19 @@ impl Cut<'_> {
             ..touch.into()
         };
         reading.touches().unwrap_or_default().into_iter().map(contact).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clamp_that_stands_still_has_a_block_of_its_own() {
+        let index = |k: usize| (k != 11).then(|| if k < 5 { k } else { k.saturating_sub(9).max(5) });
+        // samples 5 to 14 are at one place
+        let found = parts(0..20, 3, |k| if k == 4 { None } else { index(k) });
+        assert_eq!(found, [0..3, 3..5, 5..11, 11..14, 14..17, 17..20]);
+        assert_eq!(parts(3..10, 4, Some), [3..7, 7..10]);
     }
 }

@@ -12,8 +12,11 @@ const LONG: usize = 32;
 /// Where the reactions change during a stop by more than this share of what they change from stop to stop, the clamp moved on, and
 /// the encoder that told its pose is coarse. Noise alone gives 0.
 const MOVED: f64 = 0.5;
-/// Share of the samples that must be in stops. Less: single repeated poses are left to the smoothing of the path.
+/// Share of the samples that must be in stops for the clamp to go from stop to stop. Less: single repeated poses are left to the smoothing of the path.
 const SHARE: f64 = 0.5;
+/// A clamp that moves on stands still where it stays in one place for so many times as many samples as it usually does. Smaller: where it slows down, what a coarse
+/// encoder shows is a stop; larger: short stops are left to the smoothing of the path, which moves the poses beside them.
+const LONGER: usize = 4;
 
 /// Consecutive samples in one place, averaged.
 #[derive(Clone, Copy, Debug)]
@@ -26,16 +29,25 @@ pub(super) struct Stop {
 /// Joins the samples of stops to their means; a sample on the way is a stop of its own. `trembling` is the standard deviation of a
 /// pose, rod lengths.
 pub(super) fn stops(clamps: &[Clamp], trembling: f64) -> Vec<Stop> {
-    let alone = || clamps.iter().map(|clamp| Stop { clamp: *clamp, count: 1 }).collect();
     let resting: Vec<usize> = groups(clamps, SAME);
     let standing =
         |groups: &[usize], least: usize| groups.iter().filter(|count| **count >= least).sum::<usize>() as f64;
     let enough = SHARE * clamps.len() as f64;
-    if standing(&resting, 2) > enough {
-        return if moves(clamps, &resting) { alone() } else { average_groups(clamps, &resting, 2) };
+    let goes = standing(&resting, 2) > enough;
+    if goes && !moves(clamps, &resting) {
+        return average_groups(clamps, &resting, 2);
     }
-    let resting = groups(clamps, (SIGMAS * trembling).max(SAME));
-    if standing(&resting, LONG) > enough { average_groups(clamps, &resting, LONG) } else { alone() }
+    let resting = if goes { resting } else { groups(clamps, (SIGMAS * trembling).max(SAME)) };
+    let steps = !goes && standing(&resting, LONG) > enough;
+    let least = if steps { LONG } else { (LONGER * usual(&resting)).max(2) };
+    average_groups(clamps, &resting, least)
+}
+
+/// The median of the lengths of groups.
+fn usual(groups: &[usize]) -> usize {
+    let mut lengths = groups.to_vec();
+    let middle = lengths.len() / 2;
+    if lengths.is_empty() { 1 } else { *lengths.select_nth_unstable(middle).1 }
 }
 
 /// Lengths of the groups of consecutive poses within `distance` of their first ones' mean.
