@@ -129,7 +129,13 @@ impl Reconstructed {
             let findings = &mut self.check.findings;
             let is_within = |finding: &Finding| matches!(finding, Finding::KinksWithin { .. });
             let had_kinks = findings.iter().any(is_within);
-            findings.retain(|finding| !is_within(finding) && !matches!(finding, Finding::Uncertain { .. }));
+            let is_free = self.found.readings.iter().any(|reading| reading.label == Label::Free);
+            findings.retain(|finding| match finding {
+                Finding::Uncertain { .. } => false,
+                // the local answer may miss the samples without contact that the contour has
+                Finding::NoFreeStretch => !is_free,
+                _ => !is_within(finding),
+            });
             let kinks = fit.unexplained_kinks(&self.found.kinks, &self.found.readings).filter(|_| had_kinks);
             self.check.findings.extend(kinks);
             self.check.findings.extend(self.found.undetermined());

@@ -7,6 +7,16 @@ use std::fmt;
 /// Way of the clamp, rod lengths, that is too long for a scan in metres: in millimetres it is a tenth of a rod length at least.
 const LONG: f64 = 100.0;
 
+/// Share of a recording, and least number of samples, at its begin in which the reactions are those without load if they stay the same there within so many
+/// standard errors.
+const AT_REST: f64 = 0.03;
+const FEWEST: usize = 8;
+const STEADY: f64 = 4.0;
+/// Range of a coordinate, rod lengths, below which it is constant but for trembling: its sign cannot be told from the recording.
+const MOVES: f64 = 0.01;
+/// Ratio of the stiffness of the tangential line to that of the rod, either way, beyond which units are not what they are taken for. As for the check of the units.
+const NEAR: f64 = 2.0;
+
 /// A mistake in signs, axes or units of a recording, or in the rod, that can be undone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -33,6 +43,8 @@ pub enum Mistake {
     Gains(f64, f64),
     /// The bending stiffness is another one, N m^2.
     Stiffness(f64),
+    /// The sensor is not tared: without load it shows these reactions.
+    Tare(Reactions),
 }
 
 impl Mistake {
@@ -61,8 +73,9 @@ impl Mistake {
     /// are taken for metres are a long way.
     pub(crate) fn is_possible(self, rod: &Rod, samples: &[Sample]) -> bool {
         let changes = |of: fn(&Pose) -> f64| {
-            let first = samples.first().map(|sample| of(&sample.pose));
-            samples.iter().any(|sample| Some(of(&sample.pose)) != first)
+            let values = || samples.iter().map(|sample| of(&sample.pose));
+            let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+            most - least > MOVES * rod.length()
         };
         match self {
             Self::MirroredX => changes(|pose| pose.x),
@@ -77,6 +90,33 @@ impl Mistake {
             Self::Degrees => samples.iter().any(|sample| sample.pose.phi.abs() > TAU),
             _ => true,
         }
+    }
+
+    /// The sensor is not tared, if the reactions stay the same at the begin of a recording.
+    pub(crate) fn of_rest(samples: &[Sample]) -> Option<Self> {
+        let count = ((AT_REST * samples.len() as f64) as usize).max(2 * FEWEST);
+        let three = |sample: &Sample| [sample.reactions.f0x, sample.reactions.f0y, sample.reactions.m0z];
+        let rest: Vec<[f64; 3]> = samples.get(..count)?.iter().map(three).collect();
+        let (first, second) = rest.split_at(count / 2);
+        let mean = |part: &[[f64; 3]], c: usize| part.iter().map(|r| r[c]).sum::<f64>() / part.len() as f64;
+        let variance = |part: &[[f64; 3]], c: usize| {
+            let centre = mean(part, c);
+            part.iter().map(|r| (r[c] - centre).powi(2)).sum::<f64>() / part.len() as f64
+        };
+        let is_steady = |c: usize| {
+            let error = ((variance(first, c) + variance(second, c)) / (count / 2) as f64).sqrt();
+            (mean(second, c) - mean(first, c)).abs() <= STEADY * error
+        };
+        let [f0x, f0y, m0z] = [0, 1, 2].map(|c| mean(&rest, c));
+        (0..3).all(is_steady).then_some(Self::Tare(Reactions { f0x, f0y, m0z }))
+    }
+
+    /// Whether the line of tangential contacts, whose slope is the bending stiffness, has about that of the rod without the mistake. Without a line nothing
+    /// tells of units: a recording in units that are too small by far is all noise.
+    pub(crate) fn leaves_line(self, rod: &Rod, slope: Option<f64>) -> bool {
+        let (Self::Units(force, moment), Some(slope)) = (self, slope) else { return !matches!(self, Self::Units(..)) };
+        let ratio = slope.abs() / rod.bending_stiffness() * moment * moment / force;
+        ratio.log10().abs() < NEAR.log10()
     }
 
     /// What a slope of m0z^2 over 2 (f0y sin phi0 + f0x cos phi0) may come from that suggests another bending stiffness than the given one.
@@ -102,12 +142,14 @@ impl Mistake {
                 Reactions { f0x: x * f0x, f0y: y * f0y, m0z: z * m0z }
             }
             Self::Gains(force, moment) => Reactions { f0x: f0x / force, f0y: f0y / force, m0z: m0z / moment },
+            Self::Tare(rest) => Reactions { f0x: f0x - rest.f0x, f0y: f0y - rest.f0y, m0z: m0z - rest.m0z },
             Self::Swapped => Reactions { f0x: f0y, f0y: f0x, m0z },
             Self::Units(force, moment) => Reactions { f0x: force * f0x, f0y: force * f0y, m0z: moment * m0z },
             _ => Reactions { f0x, f0y, m0z },
         };
         // standard deviations have no sign
-        let sigma = |sigma: Reactions| if matches!(self, Self::Signs(_)) { sigma } else { reactions(sigma) };
+        let sigma =
+            |sigma: Reactions| if matches!(self, Self::Signs(_) | Self::Tare(_)) { sigma } else { reactions(sigma) };
         let undone = |sample: &Sample| Sample {
             t: sample.t,
             pose: pose(sample.pose),
@@ -142,6 +184,10 @@ impl fmt::Display for Mistake {
             },
             Self::Gains(1.0, moment) => write!(f, "m0z is {moment:.3} times the true value"),
             Self::Gains(force, _) => write!(f, "f0x and f0y are {force:.3} times the true value"),
+            Self::Tare(Reactions { f0x, f0y, m0z }) => write!(
+                f,
+                "the sensor is not tared: at the begin of the recording it shows {f0x:.3e} N, {f0y:.3e} N and {m0z:.3e} N m; subtract them"
+            ),
             Self::Stiffness(value) => write!(f, "the bending stiffness is {value:.4e} N m^2"),
         }
     }
@@ -163,5 +209,20 @@ mod tests {
             assert_eq!(mistake.undone(&rod, &once).1, [sample], "{mistake}");
         }
         assert!(!Mistake::MirroredX.is_possible(&rod, &[sample, sample]));
+    }
+
+    #[test]
+    fn units_and_tare_agree_with_line_and_rest() {
+        let rod = Rod::new(0.1, 6.3e-4).unwrap();
+        let leaves = |slope: f64| Mistake::ALL.iter().filter(|one| one.leaves_line(&rod, Some(slope))).count();
+        // signs and axes do not change the line
+        assert_eq!([6.0e-4, 0.6, 600.0].map(leaves), [14, 15, 15]);
+        let at = |f0x: f64| Sample::new(Pose { x: 0.0, y: 0.0, phi: 1.5 }, Reactions { f0x, f0y: 0.2, m0z: 0.0 });
+        let steady: Vec<Sample> = (0..16).map(|k| at(0.1 + 1e-3 * f64::from(k % 2))).collect();
+        let Some(Mistake::Tare(rest)) = Mistake::of_rest(&steady) else { panic!("not at rest") };
+        assert!((rest.f0x - 0.1005).abs() < 1e-12 && (rest.f0y - 0.2).abs() < 1e-12);
+        assert!(Mistake::Tare(rest).undone(&rod, &[at(0.1)]).1[0].reactions.f0y.abs() < 1e-12);
+        let rising: Vec<Sample> = (0..16).map(|k| at(0.01 * f64::from(k))).collect();
+        assert_eq!(Mistake::of_rest(&rising), None);
     }
 }

@@ -1,7 +1,6 @@
 //! Samples of a sensor that repeats itself: it has lost its connection, or has reached the end of its range.
 
 use super::noise_estimate::estimate;
-use super::quantum::hold_length;
 use rod_core::{Reactions, Sample};
 
 /// Fewest equal values in a row that cannot be chance. Where less than a third of all neighbours are equal, chance makes so many in one
@@ -20,7 +19,13 @@ pub(super) fn frozen(samples: &[Sample]) -> Vec<bool> {
     let channels: [fn(&Reactions) -> f64; 3] = [|r| r.f0x, |r| r.f0y, |r| r.m0z];
     for channel in channels {
         let values: Vec<f64> = samples.iter().map(|sample| channel(&sample.reactions)).collect();
-        let least = FEWEST.max(HELD * hold_length(&values));
+        // without load a sensor without noise shows 0 all the time
+        let is_constant = values.windows(2).all(|pair| pair[0] == pair[1]);
+        if is_constant && values.len() >= FEWEST && values[0] != 0.0 {
+            found.fill(true);
+            continue;
+        }
+        let least = FEWEST.max(HELD * usual_hold(&values));
         let mut start = 0;
         let mut rows = Vec::new();
         for run in values.chunk_by(|a, b| a == b) {
@@ -34,6 +39,14 @@ pub(super) fn frozen(samples: &[Sample]) -> Vec<bool> {
         }
     }
     found
+}
+
+/// Number of samples for which a value is usually held. Half of the values, not of the samples: a sensor that is lost for most of a recording holds one value
+/// for all that time.
+fn usual_hold(values: &[f64]) -> usize {
+    let mut runs: Vec<usize> = values.chunk_by(|a, b| a == b).map(<[f64]>::len).collect();
+    let middle = runs.len() / 2;
+    if runs.is_empty() { 1 } else { *runs.select_nth_unstable(middle).1 }
 }
 
 /// Whether a channel has noise of more than its last digit outside of long rows of equal values.
@@ -88,6 +101,10 @@ mod tests {
             (0..4000).all(|k| !saturated[k] || force(k) > 0.795)
                 && saturated.iter().filter(|found| **found).count() > 580
         );
+        // for most of the recording
+        let lost = rows(|k, noise| if k > 1500 { 0.0 } else { force(k) + 1e-3 * noise });
+        assert!((0..4000).all(|k| lost[k] == (k > 1500)));
+        assert!(!rows(|_, _| 0.25).contains(&false));
         // of a converter, too, whose last digit is less than the noise
         let coarse = |v: f64| (v / 5e-4).round() * 5e-4;
         let stuck = rows(|k, noise| coarse(if (2000..2200).contains(&k) { 0.25 } else { force(k) + 1e-3 * noise }));
