@@ -54,7 +54,9 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         breaks(&self.corrector.setup.world, &here, &scan.crossings, |_| holds = false);
         let stable = holds && (self.stays_stable(from, &here, &scan) || self.is_stable(&here, &scan));
         let quality = if here.count() == 0 { Quality::FREE } else { Quality::new(&report, true) };
-        stable.then(|| state(&self.corrector.setup, &here, &scan, quality))
+        let state = stable.then(|| state(&self.corrector.setup, &here, &scan, quality));
+        self.scanner.recycle(scan);
+        state
     }
 
     /// Whether the equilibrium `here`, of which the corrector still holds the Jacobian, is stable because the start of its step is. Between the
