@@ -30,6 +30,7 @@ impl Quality {
 }
 
 /// The state of the rod in `configuration`, which was scanned.
+#[inline(never)]
 pub(crate) fn state<R: PhysicalRod>(
     setup: &Setup<'_, R>,
     configuration: &Configuration,

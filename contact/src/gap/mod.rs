@@ -107,6 +107,7 @@ pub(crate) struct Scanner {
 
 impl Scanner {
     /// Looks at the whole rod in `configuration`.
+    #[inline(never)]
     pub fn scan<R: PhysicalRod>(&mut self, setup: &Setup<'_, R>, configuration: &Configuration) -> Scan {
         let shape = Shape::of(std::mem::take(&mut self.memory), setup, configuration);
         self.scan_shape(shape, setup, configuration, GAP_TOLERANCE)
