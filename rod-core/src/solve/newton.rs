@@ -109,8 +109,6 @@ pub struct NewtonWorkspace {
     trial: Vec<f64>,
     weights: Vec<f64>,
     damping: f64,
-    /// Whether the residual at hand is at rounding, and so is the error that the correction by it has left.
-    settled: bool,
 }
 
 /// What one step came to.
@@ -138,7 +136,6 @@ impl NewtonWorkspace {
         self.inverse.resize(n * n, 0.0);
         system.weights(u, &mut self.weights);
         self.damping = 1.0;
-        self.settled = false;
     }
 
     /// Report on the solution `u` that the last [`newton_step`] led to, with its true residual.
@@ -151,16 +148,6 @@ impl NewtonWorkspace {
         correction: f64,
     ) -> SolveReport {
         system.evaluate(u, &mut self.residual, None);
-        self.report_of_residual(system, status, iterations, correction)
-    }
-
-    fn report_of_residual(
-        &self,
-        system: &impl System,
-        status: SolveStatus,
-        iterations: u32,
-        correction: f64,
-    ) -> SolveReport {
         let residual = largest(&self.residual);
         let condition = self.condition(system.dimension());
         let lost = status.is_solved() && condition > NO_DIGIT && self.weighted_condition(system.dimension()) > NO_DIGIT;
@@ -170,8 +157,7 @@ impl NewtonWorkspace {
 
     /// The [`report`](Self::report) on `u`, and, where that has converged, one more simplified correction of it: the
     /// residual is known, so that it costs no evaluation, and of an error of the tolerance it leaves rounding. In an
-    /// ill-conditioned problem it would be nothing but rounding, and is not made. Nor is it where the last correction has left rounding:
-    /// then the residual is the one before that.
+    /// ill-conditioned problem it would be nothing but rounding, and is not made.
     pub(crate) fn finish(
         &mut self,
         system: &impl System,
@@ -180,9 +166,6 @@ impl NewtonWorkspace {
         iterations: u32,
         correction: f64,
     ) -> SolveReport {
-        if self.settled {
-            return self.report_of_residual(system, status, iterations, correction);
-        }
         let report = self.report(system, u, status, iterations, correction);
         if status == SolveStatus::Converged {
             multiply(&self.inverse, &self.residual, -1.0, &mut self.bar);
@@ -253,7 +236,6 @@ pub fn newton_step(
     }
     if length <= options.tolerance {
         add(u, 1.0, &w.step);
-        w.settled = before <= ROUNDING_RESIDUAL;
         return StepOutcome::Done(SolveStatus::Converged, length);
     }
     let mut damping = (2.0 * w.damping).min(1.0).min(options.longest_step / length);
@@ -303,9 +285,7 @@ fn chords(
         }
         add(u, 1.0, &w.bar);
         // The next simplified correction would be shorter by the contraction: that is the error left.
-        let left = 2.0 * contraction * simplified;
-        if left <= options.tolerance {
-            w.settled = left <= 0.25 * f64::EPSILON && largest(&w.residual) <= ROUNDING_RESIDUAL;
+        if 2.0 * contraction * simplified <= options.tolerance {
             return StepOutcome::Done(SolveStatus::Converged, simplified);
         }
         system.evaluate(u, &mut w.residual, None);
