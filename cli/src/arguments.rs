@@ -34,8 +34,8 @@ labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units
 recording (fitted.csv). If it explains the recording, labels and points are those of the rod past it; if none does, the place where
 the fit fails is named (status 2). With friction, and without noise, nothing is fitted.
 
-Several recordings are of one object, with one rod in one frame. Each is reconstructed on its own, into a folder of its name, and
-contour.csv, contour.svg and merged.json beside the folders are of all of them together.";
+Several recordings are of one object, with one rod in one frame. One contour is fitted to all of them; if none explains all, each keeps
+its own. Each recording has a folder of its name, and contour.csv, contour.svg and merged.json beside the folders are of all of them.";
 
 const INSPECT: &str = "\
 Look at a recording, a stage or tracked points of any layout: what it holds, what must be corrected, and the command that reads it.

@@ -6,11 +6,14 @@ use super::doubt::{Margins, probabilities};
 use super::forward::Forward;
 use super::problem::{Fit, Model};
 use crate::phase::Label;
-use crate::pipeline::Reading;
+use crate::pipeline::{Reading, Reason};
 use crate::point::Touch;
 use nalgebra::{DMatrix, DVector, Matrix2};
 use rod_contact::{ContactKind, State};
 use rod_core::{PhysicalRod, Pose, Sample};
+
+/// Probability that a contact is there of which only the guessed part of a contour tells.
+const DOUBTFUL: f64 = 0.5;
 
 impl<R: PhysicalRod> Fit<'_, R> {
     /// The answers to samples, by the states of a model with the unknowns `x` of this covariance. `labels` are those of the blocks; none where the
@@ -36,6 +39,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
         };
         let margins: Vec<Margins> = (0..blocks.len()).map(margins).collect();
         let probabilities = probabilities(labels, &margins, &self.blocks.segments);
+        let touched = Self::touched(model, rates, covariance);
         let (mut answers, mut covariances) = (vec![None; samples.len()], Vec::new());
         for (k, block) in self.blocks.blocks.iter().enumerate().filter(|(k, _)| labels[*k].is_some()) {
             let probability = probabilities[k];
@@ -65,7 +69,10 @@ impl<R: PhysicalRod> Fit<'_, R> {
             for (answer, state) in answers[block.samples.clone()].iter_mut().zip(&found) {
                 let told = |state: &State| {
                     let distinct = model.curve.distinct(&state.contacts, covariance, length);
-                    self.answer(x, &distinct, &covariances, probability)
+                    let is_on_touched =
+                        |contact| model.curve.node_at(contact).is_some_and(|node| touched.contains(&node));
+                    let is_known: Vec<bool> = state.contacts.iter().map(is_on_touched).collect();
+                    self.answer(x, &distinct, &is_known, &covariances, probability)
                 };
                 // a contact that begins inside the block may have no covariance yet
                 let is_known = |state: &&State| state.contacts.is_empty() || !covariances.is_empty();
@@ -88,14 +95,18 @@ impl<R: PhysicalRod> Fit<'_, R> {
         &self,
         x: &DVector<f64>,
         distinct: &[Distinct],
+        is_known: &[bool],
         covariances: &[[Matrix2<f64>; 2]],
         probability: f64,
     ) -> Reading {
         // the model has the length of the given rod, and its bending stiffness
         let (longer, stiffer) = self.rod_over_given(x);
         let touch = |Distinct { like, contact, spread }: &Distinct| {
+            if !is_known.get(*like).copied().unwrap_or(false) {
+                return Err(Reason::Untouched);
+            }
             let [covariance, systematic] = covariances.get(*like).or(covariances.last()).copied().unwrap_or_default();
-            Touch {
+            Ok(Touch {
                 s: contact.s * longer,
                 x: contact.x * longer,
                 y: contact.y * longer,
@@ -103,10 +114,12 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 force: contact.force * stiffer / (longer * longer),
                 covariance: covariance + spread,
                 systematic,
-            }
+            })
         };
-        let touches: Vec<Touch> = distinct.iter().map(touch).collect();
+        let touches: Vec<Result<Touch, Reason>> = distinct.iter().map(touch).collect();
+        // a contact where nothing tells of the contour may as well not be there
+        let doubt = if touches.contains(&Err(Reason::Untouched)) { DOUBTFUL } else { 1.0 };
         let is_at_tip = distinct.last().is_some_and(|last| last.contact.kind == ContactKind::Tip);
-        Reading::of_model(Label::of(distinct.len(), is_at_tip), probability, &touches)
+        Reading::of_model(Label::of(distinct.len(), is_at_tip), doubt * probability, &touches)
     }
 }

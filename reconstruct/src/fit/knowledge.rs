@@ -97,7 +97,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
     }
 
     /// The nodes that contacts touch whose place is known: a hardly loaded rod is straight, and does not tell where along it that is.
-    fn touched(model: &Model, rates: &[Option<Vec<ContactRates>>], covariance: &DMatrix<f64>) -> BTreeSet<usize> {
+    pub fn touched(model: &Model, rates: &[Option<Vec<ContactRates>>], covariance: &DMatrix<f64>) -> BTreeSet<usize> {
         let curve = &model.curve;
         let (mut sure, mut likely) = (BTreeSet::new(), BTreeSet::new());
         for (block, state) in

@@ -36,6 +36,9 @@ pub enum Reason {
         /// Standard deviation across the contour, m; along it, if that is the one that is too large.
         sigma: f64,
     },
+    /// The contour has a contact where nothing else tells of the contour.
+    #[error("nothing tells where on the contour this contact is")]
+    Untouched,
     /// The sample has several contacts, which are resolved from a whole scan only.
     #[error("several contacts, which are resolved from the whole scan only")]
     Live,
@@ -67,9 +70,9 @@ impl Reading {
 
     /// A sample of which a model gives the contacts, from the clamp to the tip.
     #[cfg(feature = "contact")]
-    pub(crate) fn of_model(label: Label, probability: f64, touches: &[Touch]) -> Self {
-        let touch = touches.first().copied().ok_or(Reason::Free);
-        let second = touches.get(1).copied().map(Ok);
+    pub(crate) fn of_model(label: Label, probability: f64, touches: &[Result<Touch, Reason>]) -> Self {
+        let touch = touches.first().copied().unwrap_or(Err(Reason::Free));
+        let second = touches.get(1).copied();
         Self { label, probability, touch, second, place: PlaceNumber::NONE }
     }
 }
