@@ -16,7 +16,7 @@ Sweeps
     :class:`TransitionDerivatives` those of an event.
 Studies
     :func:`study` sweeps many scenes on the workers of any executor and writes one row for each; :func:`grid` makes the scenes,
-    :class:`Study` is a file of them, :func:`read_study` reads the rows.
+    :class:`Study` is a file of them, :func:`read_study` reads the rows. :func:`reach` gives the parts of objects that scans can touch, as :class:`Reach`.
 From reactions to the object
     :func:`reconstruct` gives a :class:`Reconstruction`, :func:`single` the point of each sample on its own; :class:`Recording` reads files, :func:`simulate` makes recordings with
     noise, :class:`Live` answers while samples come.
@@ -77,6 +77,7 @@ from ._core import (
 from ._errors import SweepStopped
 from ._forces import forces
 from ._ragged import Ragged
+from ._reach import Reach, reach
 from ._study import StudyBroken, grid, study
 from ._study_files import read_study
 
@@ -107,6 +108,7 @@ __all__ = [
     "Path",
     "Polygon",
     "Ragged",
+    "Reach",
     "Reconstruction",
     "Recording",
     "Rod",
@@ -127,6 +129,7 @@ __all__ = [
     "equilibrium",
     "forces",
     "grid",
+    "reach",
     "read_study",
     "reconstruct",
     "simulate",
