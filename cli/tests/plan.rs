@@ -1,10 +1,11 @@
 //! `vibrissa plan`: the next scans, and the precision that they will have, against recordings.
 
 use crate::common::vibrissa;
-use rod_files::{PlanRequest, Scene, measurement, read_known_contours, read_noise};
+use rod_files::{PlanRequest, Scene, read_known_contours, read_noise};
 use std::fs;
 use std::path::Path;
-use vibrissa::plan::{Candidate, Known, PlanSettings, plan};
+use vibrissa::plan::{Candidate, Measurement, PlanSettings, plan};
+use vibrissa::reconstruct::Knowledge;
 
 const NOISE: &str = "white = { force = 2.5e-3, m0z = 6e-5 }\n";
 
@@ -42,7 +43,12 @@ fn ratios(known: &Path, found: &Path, file: &Path, noise: &Path) -> [f64; 3] {
         hypotheses: 0,
         seed: 0,
     };
-    let measurement = measurement(&read_noise(noise).unwrap(), &request, &known, scene.rod.length());
+    let measurement = Measurement::of(
+        &read_noise(noise).unwrap().channels(),
+        request.speed / request.rate,
+        &known,
+        scene.rod.length(),
+    );
     let settings =
         PlanSettings { hypotheses: 0, measurement: Some(measurement), speed: request.speed, ..PlanSettings::default() };
     let candidate = Candidate { scan: None, path: scene.path };
@@ -50,7 +56,7 @@ fn ratios(known: &Path, found: &Path, file: &Path, noise: &Path) -> [f64; 3] {
     let hypothesis = &plan.hypotheses[0];
     let mut ratios = Vec::new();
     for (point, known) in found.iter().flat_map(|one| one.points.iter().zip(&one.known)) {
-        let Known::Touched { sigma } = *known else { continue };
+        let Knowledge::Touched { sigma } = *known else { continue };
         let distance = |one: &&vibrissa::plan::PlaceSigma| {
             let frame = hypothesis.outlines[one.object].frame(&hypothesis.objects[one.object], one.place);
             (frame.x - point[0]).hypot(frame.y - point[1])

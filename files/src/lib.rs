@@ -47,7 +47,7 @@ pub use live::{
 };
 pub use noise_file::read_noise;
 pub use output::{OutputError, Staged};
-pub use planned::{PlanFileError, PlanRequest, Planned, measurement, read_known_contours};
+pub use planned::{PlanFileError, PlanRequest, Planned, PlannedScan, read_known_contours};
 pub use profile::{Profile, ProfileError, ProfilePoint, write_profile_table};
 pub use reached::{OutlinePart, Reached, Touch};
 pub use reconstructed::{

@@ -2,13 +2,13 @@
 
 use crate::choice::{Choice, exhaustive, greedy};
 use crate::hypothesis::Hypothesis;
-use crate::known::{Known, KnownContour};
 use crate::precision::{Measurement, PlaceSigma, predicted};
 use crate::support::along;
 use crate::{IntervalSet, PlanError, ReachGrid, Scanned, StraightScan, scanned};
 use rayon::prelude::*;
 use rod_contact::{ClampPath, StopReason};
 use rod_core::PhysicalRod;
+use rod_reconstruct::{FittedObject, Knowledge};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How candidates are judged.
@@ -57,12 +57,43 @@ pub struct Forecast {
     pub largest_stress: Option<f64>,
     /// Largest moment at the clamp over all hypotheses, N m.
     pub largest_moment: f64,
+    /// Largest force at the clamp over all hypotheses, N.
+    pub largest_force: f64,
     /// Share of the hypotheses in which the clamp runs into the object.
     pub blocked: f64,
     /// Predicted standard deviations along the most plausible object; empty without a measurement.
     pub sigmas: Vec<PlaceSigma>,
+    /// The points touched before, and how certain they get; empty without a measurement.
+    pub known: Vec<KnownPoint>,
+}
+
+/// A point that was touched before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KnownPoint {
+    /// Length of the contour that it stands for, m.
+    pub length: f64,
+    /// Standard deviation so far, m.
+    pub before: f64,
+    /// Standard deviation with the scan, m.
+    pub after: f64,
+}
+
+impl Forecast {
     /// Median standard deviation at the points touched before, and after this scan as well, m; none without a measurement.
-    pub known_sigma: Option<[f64; 2]>,
+    pub fn known_sigma(&self) -> Option<[f64; 2]> {
+        let median = |sigma: fn(&KnownPoint) -> f64| {
+            let mut sigmas: Vec<f64> = self.known.iter().map(sigma).collect();
+            sigmas.sort_by(f64::total_cmp);
+            sigmas.get(sigmas.len() / 2).copied()
+        };
+        Some([median(|point| point.before)?, median(|point| point.after)?])
+    }
+
+    /// Length of the contour, touched before, whose standard deviation falls below `sigma` (m) by this scan, m.
+    pub fn improved(&self, sigma: f64) -> f64 {
+        let improves = |point: &&KnownPoint| point.before > sigma && point.after <= sigma;
+        self.known.iter().filter(improves).map(|point| point.length).sum()
+    }
 }
 
 /// What all candidates are expected to bring.
@@ -107,7 +138,7 @@ impl Plan {
         (own(&taken), value)
     }
 
-    fn allowed(&self, most_stress: Option<f64>) -> Vec<usize> {
+    pub(crate) fn allowed(&self, most_stress: Option<f64>) -> Vec<usize> {
         let holds = |forecast: &Forecast| {
             let stress = forecast.largest_stress.zip(most_stress);
             forecast.blocked == 0.0 && stress.is_none_or(|(stress, most)| stress <= most)
@@ -123,16 +154,33 @@ impl Plan {
 /// [`PlanError`].
 pub fn straight_candidates<R: PhysicalRod>(
     rod: &R,
-    known: &[KnownContour],
+    known: &[FittedObject],
     grid: &ReachGrid,
     settings: &PlanSettings,
 ) -> Result<Vec<Candidate>, PlanError> {
     grid.check(rod)?;
     let length = rod.units().length;
-    let hypotheses = Hypothesis::all(known, length, settings.hypotheses, settings.seed);
-    if hypotheses.is_empty() {
-        return Err(PlanError::NothingKnown);
-    }
+    let hypotheses = hypotheses(known, length, settings, &|_| true)?;
+    candidates_of(&hypotheses, grid, length)
+}
+
+/// Objects that agree with what is known, and whose contours beyond what is known stay where they `may_be`.
+pub(crate) fn hypotheses(
+    known: &[FittedObject],
+    length: f64,
+    settings: &PlanSettings,
+    may_be: &dyn Fn([f64; 2]) -> bool,
+) -> Result<Vec<Hypothesis>, PlanError> {
+    let all = Hypothesis::all(known, length, (settings.hypotheses, settings.seed), may_be);
+    if all.is_empty() { Err(PlanError::NothingKnown) } else { Ok(all) }
+}
+
+/// The scans of a grid past these objects; `length` is that of the rod, m.
+pub(crate) fn candidates_of(
+    hypotheses: &[Hypothesis],
+    grid: &ReachGrid,
+    length: f64,
+) -> Result<Vec<Candidate>, PlanError> {
     let candidate = |scan: StraightScan| {
         let frames = || {
             hypotheses
@@ -159,22 +207,31 @@ pub fn straight_candidates<R: PhysicalRod>(
 /// [`PlanError::NothingKnown`] where no point is known.
 pub fn plan<R: PhysicalRod + Sync>(
     rod: &R,
-    known: &[KnownContour],
+    known: &[FittedObject],
     candidates: &[Candidate],
     settings: &PlanSettings,
     goes_on: &(impl Fn(usize) -> bool + Sync),
 ) -> Result<Plan, PlanError> {
-    let length = rod.units().length;
     if candidates.is_empty() {
         return Err(PlanError::Empty { what: "candidates" });
     }
-    let hypotheses = Hypothesis::all(known, length, settings.hypotheses, settings.seed);
-    if hypotheses.is_empty() {
-        return Err(PlanError::NothingKnown);
-    }
+    let hypotheses = hypotheses(known, rod.units().length, settings, &|_| true)?;
+    plan_of(rod, known, hypotheses, candidates, settings, goes_on)
+}
+
+/// [`plan`] with these objects.
+pub(crate) fn plan_of<R: PhysicalRod + Sync>(
+    rod: &R,
+    known: &[FittedObject],
+    hypotheses: Vec<Hypothesis>,
+    candidates: &[Candidate],
+    settings: &PlanSettings,
+    goes_on: &(impl Fn(usize) -> bool + Sync),
+) -> Result<Plan, PlanError> {
+    let places = hypotheses.first().map_or_else(Vec::new, |one| known_places(known, one));
     let done = AtomicUsize::new(0);
     let one = |candidate: &Candidate| {
-        let found = forecast(rod, known, &hypotheses, *candidate, settings);
+        let found = forecast(rod, &places, &hypotheses, *candidate, settings);
         (found, goes_on(done.fetch_add(1, Ordering::Relaxed) + 1))
     };
     let found = candidates.par_iter().map(one).take_any_while(|(_, goes_on)| *goes_on).map(|(found, _)| found);
@@ -184,7 +241,7 @@ pub fn plan<R: PhysicalRod + Sync>(
 
 fn forecast<R: PhysicalRod>(
     rod: &R,
-    known: &[KnownContour],
+    known_places: &[KnownPlace],
     hypotheses: &[Hypothesis],
     candidate: Candidate,
     settings: &PlanSettings,
@@ -199,9 +256,10 @@ fn forecast<R: PhysicalRod>(
         time: path.length() / settings.speed,
         largest_stress: None,
         largest_moment: 0.0,
+        largest_force: 0.0,
         blocked: 0.0,
         sigmas: Vec::new(),
-        known_sigma: None,
+        known: Vec::new(),
     };
     let count = hypotheses.len() as f64;
     for (number, hypothesis) in hypotheses.iter().enumerate() {
@@ -213,6 +271,7 @@ fn forecast<R: PhysicalRod>(
         touched += all.iter().map(IntervalSet::length).sum::<f64>();
         new.push(fresh);
         forecast.largest_moment = forecast.largest_moment.max(found.largest_moment);
+        forecast.largest_force = forecast.largest_force.max(found.largest_force);
         forecast.largest_stress = match (forecast.largest_stress, found.largest_stress) {
             (Some(one), Some(other)) => Some(one.max(other)),
             (one, other) => one.or(other),
@@ -221,7 +280,7 @@ fn forecast<R: PhysicalRod>(
         forecast.blocked += f64::from(u8::from(is_blocked)) / count;
         if let (0, Some(measurement)) = (number, &settings.measurement) {
             forecast.sigmas = predicted(rod, objects, outlines, &states, path.length(), measurement);
-            forecast.known_sigma = known_sigma(known, hypothesis, &forecast.sigmas, measurement);
+            forecast.known = known_points(known_places, &forecast.sigmas, measurement);
         }
     }
     forecast.touched = touched / count;
@@ -231,33 +290,40 @@ fn forecast<R: PhysicalRod>(
     Ok((forecast, new))
 }
 
-/// Median standard deviation at the points touched before, and with the predicted ones at the same places, as of independent measurements.
-fn known_sigma(
-    known: &[KnownContour],
-    hypothesis: &Hypothesis,
-    predicted: &[PlaceSigma],
-    measurement: &Measurement,
-) -> Option<[f64; 2]> {
-    let (mut before, mut after) = (Vec::new(), Vec::new());
-    for (point, known) in known.iter().flat_map(|contour| contour.points.iter().zip(&contour.known)) {
-        let Known::Touched { sigma } = *known else { continue };
-        let at =
-            hypothesis.objects.iter().zip(&hypothesis.outlines).enumerate().filter_map(|(object, (shape, outline))| {
+/// A point touched before, on the most plausible object: its number, arc length (m), standard deviation (m), and the length (m) that it stands for.
+type KnownPlace = (usize, f64, f64, f64);
+
+/// The points touched before, on the most plausible object.
+fn known_places(known: &[FittedObject], hypothesis: &Hypothesis) -> Vec<KnownPlace> {
+    let mut places = Vec::new();
+    for contour in known {
+        let way = |k: usize| match (contour.points.get(k), contour.points.get(k + 1)) {
+            (Some(from), Some(to)) => (to[0] - from[0]).hypot(to[1] - from[1]),
+            _ => 0.0,
+        };
+        for (k, (point, known)) in contour.points.iter().zip(&contour.known).enumerate() {
+            let Knowledge::Touched { sigma } = *known else { continue };
+            let shapes = hypothesis.objects.iter().zip(&hypothesis.outlines).enumerate();
+            let at = shapes.filter_map(|(object, (shape, outline))| {
                 let place = outline.nearest(shape, point[0], point[1])?;
                 let frame = outline.frame(shape, place);
                 Some((object, place, (frame.x - point[0]).hypot(frame.y - point[1])))
             });
-        let (object, place, _) = at.min_by(|one, other| one.2.total_cmp(&other.2))?;
-        let near = predicted
-            .iter()
-            .filter(|one| one.object == object && (one.place - place).abs() <= 0.5 * measurement.resolution);
-        let new = near.map(|one| one.sigma).reduce(f64::min).unwrap_or(f64::INFINITY);
-        before.push(sigma);
-        after.push((sigma.powi(-2) + new.powi(-2)).sqrt().recip());
+            let nearest = at.min_by(|one, other| one.2.total_cmp(&other.2));
+            let length = 0.5 * (way(k) + k.checked_sub(1).map_or(0.0, way));
+            places.extend(nearest.map(|(object, place, _)| (object, place, sigma, length)));
+        }
     }
-    let median = |values: &mut Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        values.get(values.len() / 2).copied()
+    places
+}
+
+/// The points touched before with the predicted standard deviations at the same places, as of independent measurements.
+fn known_points(places: &[KnownPlace], predicted: &[PlaceSigma], measurement: &Measurement) -> Vec<KnownPoint> {
+    let point = |&(object, place, before, length): &KnownPlace| {
+        let is_near =
+            |one: &&PlaceSigma| one.object == object && (one.place - place).abs() <= 0.5 * measurement.resolution;
+        let new = predicted.iter().filter(is_near).map(|one| one.sigma).reduce(f64::min).unwrap_or(f64::INFINITY);
+        KnownPoint { length, before, after: (before.powi(-2) + new.powi(-2)).sqrt().recip() }
     };
-    Some([median(&mut before)?, median(&mut after)?])
+    places.iter().map(point).collect()
 }

@@ -4,11 +4,12 @@
 //! curvature, one of those along it, each as likely, for a rod length at most. Ends that turn towards each other there meet, unless they are far apart. Between touched points the hollows that the rod bridged are deeper or
 //! shallower by a share of the room of the points, the same all along, uniform from -1 to 1. The touched points stay where they are.
 
-use crate::known::{Known, KnownContour};
+use crate::joined::joined;
 use crate::{IntervalSet, Outline, support};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rod_contours::{Composite, Contour, Line, Range, Spline, SplineEnd};
+use rod_reconstruct::{FittedObject, Knowledge};
 use std::f64::consts::PI;
 
 /// How far a contour goes on beyond its ends, rod lengths: a scan reaches no farther.
@@ -22,6 +23,12 @@ const OPEN: f64 = 0.3;
 
 /// Largest distance of ends that have turned towards each other, rod lengths, that are taken to meet: a rod bridges no wider gap between them.
 const MEET: f64 = 0.5;
+
+/// Directions that are tried, up to a right angle, where a contour cannot go straight on.
+const TURNS: i32 = 6;
+
+/// Largest distance (rod lengths) of touched ends of a closed contour between which it counts as touched: that of neighbouring points of a fit.
+const CLOSED: f64 = 0.06;
 
 /// How often a hypothesis is drawn anew whose contour crosses itself. Then its ends go on straight.
 const DRAWS: usize = 20;
@@ -38,11 +45,17 @@ pub struct Hypothesis {
 }
 
 impl Hypothesis {
-    /// The most plausible object, followed by `count` draws with a seed; fewer where what is known gives no contour. `length` is that of the rod, m.
-    pub(crate) fn all(contours: &[KnownContour], length: f64, count: usize, seed: u64) -> Vec<Self> {
-        let joined = KnownContour::joined(contours, length);
+    /// The most plausible object, followed by `count` draws with a seed; fewer where what is known gives no contour. `length` is that of the rod, m;
+    /// beyond its ends a contour stays where it `may_be`.
+    pub(crate) fn all(
+        contours: &[FittedObject],
+        length: f64,
+        (count, seed): (usize, u64),
+        may_be: &dyn Fn([f64; 2]) -> bool,
+    ) -> Vec<Self> {
+        let contours = joined(contours, length);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let middle = Self::of(&joined, length, &mut |curvatures| median(curvatures), &mut || 0.0);
+        let middle = Self::of(&contours, length, &mut |curvatures| median(curvatures), &mut || 0.0, may_be);
         let mut all: Vec<Self> = middle.into_iter().collect();
         for _ in 0..count {
             for _ in 0..DRAWS {
@@ -51,7 +64,9 @@ impl Hypothesis {
                     0 => 0.0,
                     count => curvatures[((random.random::<f64>() * count as f64) as usize).min(count - 1)],
                 };
-                if let Some(drawn) = Self::of(&joined, length, &mut curvature, &mut || depths.pop().unwrap_or(0.0)) {
+                if let Some(drawn) =
+                    Self::of(&contours, length, &mut curvature, &mut || depths.pop().unwrap_or(0.0), may_be)
+                {
                     all.push(drawn);
                     break;
                 }
@@ -61,15 +76,16 @@ impl Hypothesis {
     }
 
     fn of(
-        contours: &[KnownContour],
+        contours: &[FittedObject],
         length: f64,
         curvature: &mut dyn FnMut(&[f64]) -> f64,
         depth: &mut dyn FnMut() -> f64,
+        may_be: &dyn Fn([f64; 2]) -> bool,
     ) -> Option<Self> {
         let (mut objects, mut touched_points) = (Vec::new(), Vec::new());
         for contour in contours {
-            let inner = contour.deepened(depth);
-            let (object, points) = inner.went_on(length, curvature)?;
+            let inner = deepened(contour, depth);
+            let (object, points) = went_on(&inner, length, curvature, may_be)?;
             objects.push(object);
             touched_points.push(points);
         }
@@ -80,8 +96,16 @@ impl Hypothesis {
             for pair in points.windows(2) {
                 let [from, to] = [pair[0], pair[1]].map(|point| point.map(|[x, y]| outline.nearest(object, x, y)));
                 if let (Some(Some(from)), Some(Some(to))) = (from, to) {
-                    touched.insert(from, to);
+                    insert(&mut touched, outline, from, to);
                 }
+            }
+            if let (Some(Some(last)), Some(Some(first))) = (points.last(), points.first())
+                && outline.is_closed()
+                && (first[0] - last[0]).hypot(first[1] - last[1]) < CLOSED * length
+                && let (Some(from), Some(to)) =
+                    (outline.nearest(object, last[0], last[1]), outline.nearest(object, first[0], first[1]))
+            {
+                insert(&mut touched, outline, from, to);
             }
             touched
         });
@@ -90,74 +114,102 @@ impl Hypothesis {
     }
 }
 
-impl KnownContour {
-    /// With each run of bounded points moved outward by a share of their room.
-    fn deepened(&self, depth: &mut dyn FnMut() -> f64) -> Self {
-        let (mut moved, last) = (self.clone(), self.points.len() - 1);
-        let mut share = None;
-        for k in 0..self.points.len() {
-            let Known::Bounded { room } = self.known[k] else {
-                share = None;
-                continue;
-            };
-            let share = *share.get_or_insert_with(&mut *depth);
-            let (before, after) = (self.points[k.saturating_sub(1)], self.points[(k + 1).min(last)]);
-            let (dx, dy) = (after[0] - before[0], after[1] - before[1]);
-            let chord = dx.hypot(dy);
-            // the solid is on the left
-            moved.points[k][0] += share * room * dy / chord;
-            moved.points[k][1] -= share * room * dx / chord;
-        }
-        moved
-    }
-
-    /// The object with both ends gone on, and its points, none for those that are not touched.
-    fn went_on(
-        &self,
-        length: f64,
-        curvature: &mut dyn FnMut(&[f64]) -> f64,
-    ) -> Option<(Composite, Vec<Option<[f64; 2]>>)> {
-        let smooth = pieces(&self.points, &self.vertices)?;
-        let (first, last) = (smooth.first()?, smooth.last()?);
-        let (start, end) = (first.frame(first.range().from), last.frame(last.range().to));
-        let mut curvatures = Vec::new();
-        for piece in &smooth {
-            let Range { from, to } = piece.range();
-            // splines bend at their points; ends of natural ones are straight
-            curvatures.extend((1..8).map(|k| piece.frame(from + (to - from) * f64::from(k) / 8.0).curvature()));
-        }
-        let turn: f64 = end.alpha - start.alpha;
-        let most = (0.5 * (2.0 * PI - OPEN - turn.abs())).max(0.0);
-        let step = APART * length;
-        let mut beyond = |x: f64, y: f64, alpha: f64, forwards: bool| {
-            let kappa = curvature(&curvatures);
-            let count = (ON / APART).min(most / (kappa.abs() * step).max(1e-12)) as usize;
-            let sign = if forwards { 1.0 } else { -1.0 };
-            let (mut at, mut angle) = ([x, y], alpha);
-            let mut points = Vec::new();
-            for _ in 0..count {
-                angle += sign * 0.5 * kappa * step;
-                at = [at[0] + sign * step * angle.cos(), at[1] + sign * step * angle.sin()];
-                angle += sign * 0.5 * kappa * step;
-                points.push(at);
-            }
-            points
+/// With each run of bounded points moved outward by a share of their room.
+fn deepened(contour: &FittedObject, depth: &mut dyn FnMut() -> f64) -> FittedObject {
+    let (mut moved, last) = (contour.clone(), contour.points.len() - 1);
+    let mut share = None;
+    for k in 0..contour.points.len() {
+        let Knowledge::Bounded { room } = contour.known[k] else {
+            share = None;
+            continue;
         };
-        let mut before = beyond(start.x, start.y, start.alpha, false);
-        before.reverse();
-        let after = beyond(end.x, end.y, end.alpha, true);
-        let vertices: Vec<usize> = self.vertices.iter().map(|vertex| vertex + before.len()).collect();
-        let points: Vec<[f64; 2]> = before.iter().chain(&self.points).chain(&after).copied().collect();
-        let (first, last) = (points.first()?, points.last()?);
-        // ends that went on as far as they may have turned towards each other
-        let farthest = (ON / APART) as usize;
-        let meets = before.len().max(after.len()) < farthest
-            && (first[0] - last[0]).hypot(first[1] - last[1]) < MEET * length
-            && points.len() > 3;
-        let pieces = if meets { closed_pieces(points, &vertices)? } else { pieces(&points, &vertices)? };
-        let object = Composite::new(pieces).ok()?;
-        let is_touched = |(point, known): (&[f64; 2], &Known)| matches!(known, Known::Touched { .. }).then_some(*point);
-        Some((object, self.points.iter().zip(&self.known).map(is_touched).collect()))
+        let share = *share.get_or_insert_with(&mut *depth);
+        let (before, after) = (contour.points[k.saturating_sub(1)], contour.points[(k + 1).min(last)]);
+        let (dx, dy) = (after[0] - before[0], after[1] - before[1]);
+        let chord = dx.hypot(dy);
+        // the solid is on the left
+        moved.points[k][0] += share * room * dy / chord;
+        moved.points[k][1] -= share * room * dx / chord;
+    }
+    moved
+}
+
+/// The object with both ends gone on, and its points, none for those that are not touched.
+fn went_on(
+    contour: &FittedObject,
+    length: f64,
+    curvature: &mut dyn FnMut(&[f64]) -> f64,
+    may_be: &dyn Fn([f64; 2]) -> bool,
+) -> Option<(Composite, Vec<Option<[f64; 2]>>)> {
+    let smooth = pieces(&contour.points, &contour.vertices)?;
+    let (first, last) = (smooth.first()?, smooth.last()?);
+    let (start, end) = (first.frame(first.range().from), last.frame(last.range().to));
+    let mut curvatures = Vec::new();
+    for piece in &smooth {
+        let Range { from, to } = piece.range();
+        // splines bend at their points; ends of natural ones are straight
+        curvatures.extend((1..8).map(|k| piece.frame(from + (to - from) * f64::from(k) / 8.0).curvature()));
+    }
+    let turn = turn_of(&contour.points);
+    let most = (0.5 * (2.0 * PI - OPEN - turn.abs())).max(0.0);
+    let step = APART * length;
+    let mut beyond = |x: f64, y: f64, alpha: f64, forwards: bool| {
+        let kappa = curvature(&curvatures);
+        let sign = if forwards { 1.0 } else { -1.0 };
+        let (mut at, mut angle, mut turned) = ([x, y], alpha, 0.0);
+        let mut points = Vec::new();
+        while points.len() < (ON / APART) as usize && turned + kappa.abs() * step <= most {
+            angle += sign * 0.5 * kappa * step;
+            let ahead = |turn: f64| {
+                let (sin, cos) = (angle + sign * turn).sin_cos();
+                [1.0, 0.5].map(|share| [at[0] + sign * share * step * cos, at[1] + sign * share * step * sin])
+            };
+            // where it cannot be it turns towards the solid
+            let turns = (0..=TURNS).map(|k| f64::from(k) * PI / f64::from(2 * TURNS));
+            let Some(turn) = turns.into_iter().find(|turn| ahead(*turn).into_iter().all(may_be)) else { break };
+            at = ahead(turn)[0];
+            angle += sign * (turn + 0.5 * kappa * step);
+            turned += turn + kappa.abs() * step;
+            points.push(at);
+        }
+        points
+    };
+    let mut before = beyond(start.x, start.y, start.alpha, false);
+    before.reverse();
+    let after = beyond(end.x, end.y, end.alpha, true);
+    let vertices: Vec<usize> = contour.vertices.iter().map(|vertex| vertex + before.len()).collect();
+    let points: Vec<[f64; 2]> = before.iter().chain(&contour.points).chain(&after).copied().collect();
+    let (first, last) = (points.first()?, points.last()?);
+    // ends that went on as far as they may have turned towards each other
+    let farthest = (ON / APART) as usize;
+    let meets = before.len().max(after.len()) < farthest
+        && (first[0] - last[0]).hypot(first[1] - last[1]) < MEET * length
+        && points.len() > 3;
+    let pieces = if meets { closed_pieces(points, &vertices)? } else { pieces(&points, &vertices)? };
+    let object = Composite::new(pieces).ok()?;
+    let is_touched =
+        |(point, known): (&[f64; 2], &Knowledge)| matches!(known, Knowledge::Touched { .. }).then_some(*point);
+    Some((object, contour.points.iter().zip(&contour.known).map(is_touched).collect()))
+}
+
+/// By how much (rad) a line through points turns to the left, from its first chord to its last.
+fn turn_of(points: &[[f64; 2]]) -> f64 {
+    let chords: Vec<[f64; 2]> =
+        points.windows(2).map(|pair| [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]]).collect();
+    let turn = |pair: &[[f64; 2]]| {
+        let [a, b] = [pair[0], pair[1]];
+        (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+    };
+    chords.windows(2).map(turn).sum()
+}
+
+/// Adds the part of an outline from one place to another, which may pass the start of a closed one.
+fn insert(touched: &mut IntervalSet, outline: &Outline, from: f64, to: f64) {
+    if from > to && outline.is_closed() && from - to > 0.5 * outline.length() {
+        touched.insert(from, outline.length());
+        touched.insert(0.0, to);
+    } else {
+        touched.insert(from, to);
     }
 }
 
@@ -195,18 +247,18 @@ fn median(values: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    fn arc(from: f64, to: f64, count: usize) -> KnownContour {
+    fn arc(from: f64, to: f64, count: usize) -> FittedObject {
         let angle = |k: usize| from + (to - from) * k as f64 / (count - 1) as f64;
-        KnownContour {
+        FittedObject {
             points: (0..count).map(|k| [0.2 * angle(k).cos(), 0.2 * angle(k).sin()]).collect(),
             vertices: Vec::new(),
-            known: vec![Known::Touched { sigma: 1e-4 }; count],
+            known: vec![Knowledge::Touched { sigma: 1e-4 }; count],
         }
     }
 
     #[test]
     fn an_arc_goes_on_as_a_circle() {
-        let all = Hypothesis::all(&[arc(-2.3, -0.8, 30)], 1.0, 4, 1);
+        let all = Hypothesis::all(&[arc(-2.3, -0.8, 30)], 1.0, (4, 1), &|_| true);
         assert_eq!(all.len(), 5);
         let (object, outline, touched) = (&all[0].objects[0], &all[0].outlines[0], &all[0].touched[0]);
         // half of what is left of the circle on either side, less what stays open
@@ -220,8 +272,8 @@ mod tests {
     #[test]
     fn hollows_differ_and_what_is_touched_stays() {
         let mut contour = arc(-2.3, -0.8, 30);
-        contour.known[10..15].fill(Known::Bounded { room: 0.02 });
-        let all = Hypothesis::all(&[contour.clone()], 1.0, 3, 7);
+        contour.known[10..15].fill(Knowledge::Bounded { room: 0.02 });
+        let all = Hypothesis::all(&[contour.clone()], 1.0, (3, 7), &|_| true);
         for one in &all[1..] {
             let gap = |k: usize| one.objects[0].gap(contour.points[k][0], contour.points[k][1]);
             assert!(gap(12).abs() > 1e-6 && gap(12).abs() < 0.021 && gap(5).abs() < 1e-12);

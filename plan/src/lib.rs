@@ -3,18 +3,21 @@
 //! - [`Outline`]: the border of an object by arc length. [`IntervalSet`]: parts of it.
 //! - [`Touched`]: the parts that the contacts of a sweep go over.
 //! - [`StraightScan`]: a scan by its distance and angle. [`reach`]: what the scans of a grid touch, on all cores.
-//! - [`KnownContour`]: what is known of a contour. [`plan`]: what each of some candidate scans is expected to add, its precision, time and load;
+//! - [`plan`]: from what is known of a contour ([`FittedObject`](rod_reconstruct::FittedObject)), what each of some candidate scans is expected to add, its precision, time and load;
 //!   [`Plan::greedy`] takes several of them.
+//!
+//! - [`Explorer`]: proposes scans, takes what was measured on them, and proposes the next ones, until nothing is left to find.
 //!
 //! This crate knows nothing of files.
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod choice;
 mod error;
+mod explore;
 mod forecast;
 mod hypothesis;
 mod interval_set;
-mod known;
+mod joined;
 mod outline;
 mod precision;
 mod reach;
@@ -25,10 +28,10 @@ mod touched;
 
 pub use choice::{Choice, exhaustive, greedy};
 pub use error::PlanError;
-pub use forecast::{Candidate, Forecast, Plan, PlanSettings, plan, straight_candidates};
+pub use explore::{Abort, ExploreError, Explorer, ExplorerSettings, Finish, Proposal, Purpose, Rectangle, Stage};
+pub use forecast::{Candidate, Forecast, KnownPoint, Plan, PlanSettings, plan, straight_candidates};
 pub use hypothesis::Hypothesis;
 pub use interval_set::IntervalSet;
-pub use known::{Known, KnownContour};
 pub use outline::Outline;
 pub use precision::{Measurement, PlaceSigma};
 pub use reach::{Reach, ReachGrid, ScanReach, reach};

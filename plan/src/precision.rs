@@ -10,6 +10,8 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use rod_contact::{Derivatives, State};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, SupportRate};
+use rod_reconstruct::FittedObject;
+use rod_reconstruct::noise_estimate::ChannelNoise;
 
 /// What is measured along a scan.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +26,52 @@ pub struct Measurement {
     pub resolution: f64,
     /// Standard deviation of the change of curvature over a length of way, 1/m per root of m: how smooth the contour is.
     pub bend: f64,
+}
+
+/// The least change of curvature per root of way that a contour is expected to have, L^-1.5: of a nearly straight or round contour the fit determines
+/// it from noise.
+const LEAST_BEND: f64 = 1.0;
+
+/// Distance of the points of a fit where none are known yet, rod lengths.
+const RESOLUTION: f64 = 0.02;
+
+impl Measurement {
+    /// With the resolution and the smoothness that the contour has now, for a sensor with this noise of f0x, f0y (N) and m0z (N m), a sample
+    /// every `spacing` (m) of the clamp's way, and a rod of this length (m).
+    pub fn of(noise: &[ChannelNoise; 3], spacing: f64, known: &[FittedObject], length: f64) -> Self {
+        let (mut ways, mut changes) = (Vec::new(), Vec::new());
+        for contour in known {
+            let is_touched = |k: usize| contour.known[k].sigma().is_some();
+            let way = |k: usize| {
+                let [from, to] = [contour.points[k], contour.points[k + 1]];
+                (to[0] - from[0]).hypot(to[1] - from[1])
+            };
+            let turn = |k: usize| {
+                let angle = |k: usize| {
+                    let [from, to] = [contour.points[k], contour.points[k + 1]];
+                    (to[1] - from[1]).atan2(to[0] - from[0])
+                };
+                let turn = angle(k) - angle(k - 1);
+                turn.sin().atan2(turn.cos())
+            };
+            for k in 1..contour.points.len().saturating_sub(2) {
+                if (k - 1..=k + 2).all(is_touched) && (k..=k + 1).all(|k| !contour.vertices.contains(&k)) {
+                    let curvature = |k: usize| 2.0 * turn(k) / (way(k - 1) + way(k));
+                    ways.push(way(k));
+                    changes.push((curvature(k + 1) - curvature(k)).powi(2) / way(k));
+                }
+            }
+        }
+        ways.sort_by(f64::total_cmp);
+        let bend = (changes.iter().sum::<f64>() / changes.len().max(1) as f64).sqrt();
+        Self {
+            sigma: noise.each_ref().map(|channel| channel.sigma),
+            long_run: noise.each_ref().map(|channel| channel.long_run),
+            spacing,
+            resolution: ways.get(ways.len() / 2).copied().unwrap_or(RESOLUTION * length),
+            bend: bend.max(LEAST_BEND * length.powf(-1.5)),
+        }
+    }
 }
 
 /// Standard deviation of an offset about the start of the fit, rod lengths: that of the fit.

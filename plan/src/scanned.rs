@@ -20,6 +20,8 @@ pub struct Scanned {
     pub largest_stress: Option<f64>,
     /// Largest moment at the clamp over the states, N m.
     pub largest_moment: f64,
+    /// Largest force at the clamp over the states, N.
+    pub largest_force: f64,
     /// Why the sweep stopped early, if it did: what it would touch after that is not known.
     pub stop: Option<Stop>,
 }
@@ -60,6 +62,7 @@ impl Scanned {
 
     fn load(&mut self, state: &State) {
         self.largest_moment = self.largest_moment.max(state.reactions.m0z.abs());
+        self.largest_force = self.largest_force.max(state.reactions.f0x.hypot(state.reactions.f0y));
         self.largest_stress = match (self.largest_stress, state.max_stress) {
             (Some(one), Some(other)) => Some(one.max(other)),
             (one, other) => one.or(other),

@@ -3,7 +3,8 @@
 
 use rod_contours::{CircularArc, Composite, Contour};
 use rod_core::Rod;
-use rod_plan::{Known, KnownContour, Measurement, Plan, PlanSettings, ReachGrid, plan, reach, straight_candidates};
+use rod_plan::{Measurement, Plan, PlanSettings, ReachGrid, plan, reach, straight_candidates};
+use rod_reconstruct::{FittedObject, Knowledge};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 const RADIUS: f64 = 0.25;
@@ -13,13 +14,13 @@ fn rod() -> Rod {
 }
 
 /// The lower part of a circle, as a scan from below leaves it.
-fn known() -> Vec<KnownContour> {
+fn known() -> Vec<FittedObject> {
     let (from, to, count) = (-2.4, -0.74, 40);
     let angle = |k: usize| from + (to - from) * k as f64 / (count - 1) as f64;
-    vec![KnownContour {
+    vec![FittedObject {
         points: (0..count).map(|k| [RADIUS * angle(k).cos(), RADIUS * angle(k).sin()]).collect(),
         vertices: Vec::new(),
-        known: vec![Known::Touched { sigma: 1e-4 }; count],
+        known: vec![Knowledge::Touched { sigma: 1e-4 }; count],
     }]
 }
 
@@ -113,6 +114,6 @@ fn twice_the_noise_is_twice_the_sigma_and_what_is_known_gets_better() {
     let middle = |forecast: &rod_plan::Forecast| forecast.sigmas[forecast.sigmas.len() / 2].sigma;
     let ratio = middle(&two) / middle(&one);
     assert!((1.8..=2.05).contains(&ratio), "{ratio}");
-    let [before, after] = one.known_sigma.unwrap();
+    let [before, after] = one.known_sigma().unwrap();
     assert!(after < before);
 }

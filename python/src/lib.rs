@@ -23,7 +23,9 @@ mod own_path;
 mod own_shape;
 mod path;
 mod pickle;
+mod plan;
 mod pose;
+mod reach;
 mod reading;
 mod reconstruct;
 mod recording;
@@ -78,6 +80,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(equilibrium::equilibrium, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(reconstruct::reconstruct, module)?)?;
+    module.add_function(wrap_pyfunction!(reach::_reach, module)?)?;
+    module.add_function(wrap_pyfunction!(plan::_plan, module)?)?;
     module.add_function(wrap_pyfunction!(single::single, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(own_shape::check_contract, module)?)?;

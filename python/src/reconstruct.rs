@@ -291,6 +291,11 @@ impl PyReconstruction {
 }
 
 impl PyReconstruction {
+    /// The reconstruction itself.
+    pub fn found(&self) -> &Reconstructed {
+        &self.found
+    }
+
     fn answers(&self) -> Vec<Answer> {
         let found = &self.found.found;
         let mut last: Option<(&Evidence, Label, Basis)> = None;

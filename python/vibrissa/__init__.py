@@ -17,6 +17,9 @@ Sweeps
 Studies
     :func:`study` sweeps many scenes on the workers of any executor and writes one row for each; :func:`grid` makes the scenes,
     :class:`Study` is a file of them, :func:`read_study` reads the rows.
+Scans to make
+    :func:`reach` gives the parts of objects that straight scans can touch, as :class:`Reach`; :func:`plan` chooses the next scans from a
+    reconstruction, as :class:`Plan`.
 From reactions to the object
     :func:`reconstruct` gives a :class:`Reconstruction`, :func:`single` the point of each sample on its own; :class:`Recording` reads files, :func:`simulate` makes recordings with
     noise, :class:`Live` answers while samples come.
@@ -76,7 +79,9 @@ from ._core import (
 )
 from ._errors import SweepStopped
 from ._forces import forces
+from ._plan import Plan, plan
 from ._ragged import Ragged
+from ._reach import Reach, reach
 from ._study import StudyBroken, grid, study
 from ._study_files import read_study
 
@@ -105,8 +110,10 @@ __all__ = [
     "Live",
     "Parabola",
     "Path",
+    "Plan",
     "Polygon",
     "Ragged",
+    "Reach",
     "Reconstruction",
     "Recording",
     "Rod",
@@ -127,6 +134,8 @@ __all__ = [
     "equilibrium",
     "forces",
     "grid",
+    "plan",
+    "reach",
     "read_study",
     "reconstruct",
     "simulate",

@@ -580,6 +580,21 @@ def elastica(
 def _average_whisker(animal: str, row: int | str, column: int) -> tuple[float, float, float, float, str, float]: ...
 def _mean_curvature(coefficient: float, length: float) -> float: ...
 def _study_row(text: str, file: str | PathLike[str]) -> tuple[Any, ...]: ...
+def _reach(
+    scene: Scene, distances: npt.ArrayLike | None, angles: npt.ArrayLike | None
+) -> tuple[_Rows, _Rows, float, list[tuple[str, list[list[float]]]]]: ...
+def _plan(
+    found: Reconstruction,
+    distances: npt.ArrayLike | None,
+    angles: npt.ArrayLike | None,
+    scans: int,
+    stress: float | None,
+    noise: Mapping[str, Any] | str | PathLike[str] | None,
+    rate: float,
+    speed: float,
+    hypotheses: int,
+    seed: int,
+) -> tuple[_Rows, list[list[list[float]]]]: ...
 def equilibrium(rod: Rod, objects: _Objects, pose: _Pose, guess: Sequence[Contact]) -> Equilibrium: ...
 def simulate(
     scene: Scene,

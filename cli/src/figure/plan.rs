@@ -6,7 +6,7 @@ use super::line::thin_line;
 use super::palette::{FAINT, INK, MUTED, OTHERS};
 use super::plane::PlaneWindow;
 use rod_files::Planned;
-use vibrissa::plan::Known;
+use vibrissa::reconstruct::Knowledge;
 
 /// Height of title and legend, and of the plane (from, to), pixels.
 const HEAD: u32 = 116;
@@ -38,6 +38,7 @@ pub(crate) fn plan(found: &Planned) -> Result<String, FigureError> {
         let entries = [
             (INK, "touched"),
             (OTHERS[1], "bounded"),
+            (MUTED, "unknown"),
             (FAINT, "hypotheses"),
             (OTHERS[0], "clamp, with the rod's direction"),
         ];
@@ -57,9 +58,9 @@ pub(crate) fn plan(found: &Planned) -> Result<String, FigureError> {
         }
         for (point, known) in points() {
             let colour = match known {
-                Known::Touched { .. } => INK,
-                Known::Bounded { .. } => OTHERS[1],
-                Known::Unknown => MUTED,
+                Knowledge::Touched { .. } => INK,
+                Knowledge::Bounded { .. } => OTHERS[1],
+                Knowledge::Unknown => MUTED,
             };
             chart.draw_series([Element::circle(mm(*point), POINT, colour.filled())])?;
         }

@@ -5,7 +5,7 @@ use crate::output::{pretty_json, write_csv};
 use crate::{OutputError, Staged};
 use serde::Serialize;
 use vibrissa::Pose;
-use vibrissa::plan::Forecast;
+use vibrissa::plan::{Forecast, StraightScan};
 
 /// Columns of candidates.csv.
 const CANDIDATES: [&str; 18] = [
@@ -28,6 +28,60 @@ const CANDIDATES: [&str; 18] = [
     "sigma",
     "known_sigma_after",
 ];
+
+/// A candidate scan, as a row of candidates.csv.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedScan {
+    /// Its number, from 0.
+    pub candidate: usize,
+    /// Its place among those that are taken, from 1.
+    pub chosen: Option<usize>,
+    /// Where it stands in a grid; none where its path was given.
+    pub scan: Option<StraightScan>,
+    /// First pose of the clamp.
+    pub from: Pose,
+    /// Last pose of the clamp.
+    pub to: Pose,
+    /// Mean length of the contour that it newly touches, m.
+    pub gain: f64,
+    /// Standard deviation of that over the hypotheses, m.
+    pub gain_sigma: f64,
+    /// Mean length of the contour that it touches at all, m.
+    pub touched: f64,
+    /// s
+    pub time: f64,
+    /// Largest moment at the clamp, N m.
+    pub largest_moment: f64,
+    /// Largest bending stress, Pa; none where the diameter of the rod is not known.
+    pub largest_stress: Option<f64>,
+    /// Share of the hypotheses in which the clamp runs into the object.
+    pub blocked: f64,
+    /// Median of the predicted standard deviations, m; none without noise.
+    pub sigma: Option<f64>,
+    /// Median standard deviation at the points touched before, with this scan, m; none without noise.
+    pub known_sigma_after: Option<f64>,
+}
+
+impl PlannedScan {
+    /// The fields of [`CANDIDATES`].
+    fn columns(&self) -> impl Serialize + use<> {
+        let (scan, from, to) = (self.scan, self.from, self.to);
+        // a tuple has sixteen members at most
+        (
+            (
+                self.candidate,
+                self.chosen,
+                from.phi,
+                scan.map(|scan| scan.distance),
+                scan.map(|scan| scan.pass.to_string()),
+            ),
+            (from.x, from.y, to.x, to.y),
+            (self.gain, self.gain_sigma, self.touched, self.time),
+            (self.largest_moment, self.largest_stress, self.blocked),
+            (self.sigma, self.known_sigma_after),
+        )
+    }
+}
 
 /// plan.json.
 #[derive(Serialize)]
@@ -65,24 +119,34 @@ impl Planned {
     /// [`OutputError`].
     pub fn write(&self, staged: &Staged) -> Result<(), OutputError> {
         staged.write("candidates.csv".as_ref(), |file| {
-            write_csv(file, &CANDIDATES, self.ranked().into_iter().map(|(number, forecast)| self.row(number, forecast)))
+            write_csv(file, &CANDIDATES, self.rows().iter().map(PlannedScan::columns))
         })?;
         staged.write("plan.json".as_ref(), |file| pretty_json(file, &self.record()))
     }
 
-    fn row(&self, number: usize, forecast: &Forecast) -> impl Serialize + use<> {
-        let chosen = self.choices.iter().position(|choice| choice.candidate == number).map(|place| place + 1);
+    /// The candidates, the largest gain first.
+    pub fn rows(&self) -> Vec<PlannedScan> {
+        self.ranked().into_iter().map(|(number, forecast)| self.row(number, forecast)).collect()
+    }
+
+    fn row(&self, candidate: usize, forecast: &Forecast) -> PlannedScan {
         let path = forecast.candidate.path;
-        let [from, to] = [path.at(0.0), path.at(path.length())];
-        let scan = forecast.candidate.scan;
-        // a tuple has sixteen members at most
-        (
-            (number, chosen, from.phi, scan.map(|scan| scan.distance), scan.map(|scan| scan.pass.to_string())),
-            (from.x, from.y, to.x, to.y),
-            (forecast.gain, forecast.gain_sigma, forecast.touched, forecast.time),
-            (forecast.largest_moment, forecast.largest_stress, forecast.blocked),
-            (median_sigma(forecast), forecast.known_sigma.map(|sigma| sigma[1])),
-        )
+        PlannedScan {
+            candidate,
+            chosen: self.choices.iter().position(|choice| choice.candidate == candidate).map(|place| place + 1),
+            scan: forecast.candidate.scan,
+            from: path.at(0.0),
+            to: path.at(path.length()),
+            gain: forecast.gain,
+            gain_sigma: forecast.gain_sigma,
+            touched: forecast.touched,
+            time: forecast.time,
+            largest_moment: forecast.largest_moment,
+            largest_stress: forecast.largest_stress,
+            blocked: forecast.blocked,
+            sigma: median_sigma(forecast),
+            known_sigma_after: forecast.known_sigma().map(|sigma| sigma[1]),
+        }
     }
 
     fn record(&self) -> PlanRecord {
@@ -102,7 +166,7 @@ impl Planned {
             hypotheses: self.plan.hypotheses.len(),
             candidates: self.candidates,
             bound: 1.0 - (1.0 - 1.0 / count).powf(count),
-            known_sigma: self.plan.forecasts.iter().find_map(|forecast| forecast.known_sigma).map(|sigma| sigma[0]),
+            known_sigma: self.plan.forecasts.iter().find_map(Forecast::known_sigma).map(|sigma| sigma[0]),
             chosen: chosen.collect(),
         }
     }

@@ -3,7 +3,7 @@
 use super::PlanFileError;
 use serde::Deserialize;
 use std::path::Path;
-use vibrissa::plan::{Known, KnownContour};
+use vibrissa::reconstruct::{FittedObject, Knowledge};
 
 /// A row of fitted.csv.
 #[derive(Deserialize)]
@@ -21,14 +21,14 @@ struct Row {
 ///
 /// # Errors
 /// [`PlanFileError`].
-pub fn read_known_contours(directory: &Path) -> Result<Vec<KnownContour>, PlanFileError> {
+pub fn read_known_contours(directory: &Path) -> Result<Vec<FittedObject>, PlanFileError> {
     let file = directory.join("fitted.csv");
     let unreadable = |source: csv::Error| match source.kind() {
         csv::ErrorKind::Io(_) => PlanFileError::NoFit { file: file.clone(), source: source.into() },
         _ => PlanFileError::Table { file: file.clone(), reason: source.to_string() },
     };
     let mut table = csv::Reader::from_path(&file).map_err(unreadable)?;
-    let mut contours: Vec<KnownContour> = Vec::new();
+    let mut contours: Vec<FittedObject> = Vec::new();
     let mut last = None;
     // the head is line 1
     for (line, row) in (2..).zip(table.deserialize()) {
@@ -43,16 +43,16 @@ pub fn read_known_contours(directory: &Path) -> Result<Vec<KnownContour>, PlanFi
             if is_one { Ok(value) } else { Err(wrong(field, value.to_string(), "a number, 0 or larger, m")) }
         };
         let known = match row.known.as_str() {
-            "touched" => Known::Touched { sigma: number("sigma", row.sigma)? },
-            "bounded" => Known::Bounded { room: number("room", row.room)? },
-            "unknown" => Known::Unknown,
+            "touched" => Knowledge::Touched { sigma: number("sigma", row.sigma)? },
+            "bounded" => Knowledge::Bounded { room: number("room", row.room)? },
+            "unknown" => Knowledge::Unknown,
             other => return Err(wrong("known", other.to_owned(), "touched, bounded or unknown")),
         };
         if !(row.x.is_finite() && row.y.is_finite()) {
             return Err(wrong("x, y", format!("{}, {}", row.x, row.y), "finite numbers, m"));
         }
         if last != Some(row.object) {
-            contours.push(KnownContour { points: Vec::new(), vertices: Vec::new(), known: Vec::new() });
+            contours.push(FittedObject { points: Vec::new(), vertices: Vec::new(), known: Vec::new() });
             last = Some(row.object);
         }
         if let Some(contour) = contours.last_mut() {

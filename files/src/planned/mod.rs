@@ -4,16 +4,16 @@ mod files;
 mod known;
 mod report;
 
+pub use files::PlannedScan;
 pub use known::read_known_contours;
 
 use crate::Interrupt;
 use std::io;
 use std::path::PathBuf;
 use vibrissa::plan::{
-    Choice, Forecast, Known, KnownContour, Measurement, Plan, PlanError, PlanSettings, ReachGrid, plan,
-    straight_candidates,
+    Choice, Forecast, Measurement, Plan, PlanError, PlanSettings, ReachGrid, plan, straight_candidates,
 };
-use vibrissa::reconstruct::NoiseModel;
+use vibrissa::reconstruct::{FittedObject, NoiseModel};
 use vibrissa::rod::AnyRod;
 
 /// Distances that are tried unless others are given, in rod lengths.
@@ -21,10 +21,6 @@ const DISTANCES: [f64; 5] = [0.2, 0.35, 0.5, 0.65, 0.8];
 
 /// Angles that are tried unless others are given: all around.
 const ANGLES: usize = 24;
-
-/// The least change of curvature per root of way that a contour is expected to have, L^-1.5: of a nearly straight or round contour the fit determines
-/// it from noise.
-const LEAST_BEND: f64 = 1.0;
 
 /// Why a plan cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -80,7 +76,7 @@ pub struct Planned {
     /// What it is called.
     pub name: String,
     /// What is known.
-    pub known: Vec<KnownContour>,
+    pub known: Vec<FittedObject>,
     /// How many candidates there are.
     pub candidates: usize,
     /// All candidates.
@@ -97,7 +93,7 @@ impl Planned {
     pub fn new(
         name: &str,
         rod: &AnyRod,
-        known: Vec<KnownContour>,
+        known: Vec<FittedObject>,
         request: &PlanRequest,
         interrupt: &Interrupt,
     ) -> Result<Self, PlanError> {
@@ -112,7 +108,10 @@ impl Planned {
             hypotheses: request.hypotheses,
             seed: request.seed,
             speed: request.speed,
-            measurement: request.noise.as_ref().map(|noise| measurement(noise, request, &known, length)),
+            measurement: request
+                .noise
+                .as_ref()
+                .map(|noise| Measurement::of(&noise.channels(), request.speed / request.rate, &known, length)),
         };
         let candidates = straight_candidates(rod, &known, &grid, &settings)?;
         let plan = plan(rod, &known, &candidates, &settings, &|done| {
@@ -133,42 +132,5 @@ impl Planned {
         let mut ranked: Vec<(usize, &Forecast)> = self.plan.forecasts.iter().enumerate().collect();
         ranked.sort_by(|one, other| other.1.gain.total_cmp(&one.1.gain));
         ranked
-    }
-}
-
-/// The sensor, with the resolution and the smoothness that the contour has now.
-pub fn measurement(noise: &NoiseModel, request: &PlanRequest, known: &[KnownContour], length: f64) -> Measurement {
-    let channels = noise.channels();
-    let (mut ways, mut changes) = (Vec::new(), Vec::new());
-    for contour in known {
-        let is_touched = |k: usize| matches!(contour.known[k], Known::Touched { .. });
-        let way = |k: usize| {
-            let [from, to] = [contour.points[k], contour.points[k + 1]];
-            (to[0] - from[0]).hypot(to[1] - from[1])
-        };
-        let turn = |k: usize| {
-            let angle = |k: usize| {
-                let [from, to] = [contour.points[k], contour.points[k + 1]];
-                (to[1] - from[1]).atan2(to[0] - from[0])
-            };
-            let turn = angle(k) - angle(k - 1);
-            turn.sin().atan2(turn.cos())
-        };
-        for k in 1..contour.points.len().saturating_sub(2) {
-            if (k - 1..=k + 2).all(is_touched) && (k..=k + 1).all(|k| !contour.vertices.contains(&k)) {
-                let curvature = |k: usize| 2.0 * turn(k) / (way(k - 1) + way(k));
-                ways.push(way(k));
-                changes.push((curvature(k + 1) - curvature(k)).powi(2) / way(k));
-            }
-        }
-    }
-    ways.sort_by(f64::total_cmp);
-    let bend = (changes.iter().sum::<f64>() / changes.len().max(1) as f64).sqrt();
-    Measurement {
-        sigma: channels.each_ref().map(|channel| channel.sigma),
-        long_run: channels.each_ref().map(|channel| channel.long_run),
-        spacing: request.speed / request.rate,
-        resolution: ways.get(ways.len() / 2).copied().unwrap_or(0.02 * length),
-        bend: bend.max(LEAST_BEND * length.powf(-1.5)),
     }
 }

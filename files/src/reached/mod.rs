@@ -61,16 +61,8 @@ impl Scene {
         angles: Option<Vec<f64>>,
         interrupt: &Interrupt,
     ) -> Result<Reached, PlanError> {
-        let length = self.rod.units().length;
-        let (from, to, count) = DISTANCES;
-        let share = |k: u32| f64::from(k) / f64::from(count - 1);
-        let usual = || (0..count).map(|k| length * (from + (to - from) * share(k))).collect();
-        let grid = ReachGrid {
-            distances: distances.unwrap_or_else(usual),
-            angles: angles.unwrap_or_else(|| vec![self.path.at(0.0).phi]),
-            ..ReachGrid::of(&self.rod)
-        };
-        Reached::new(&self.name, &self.rod, self.objects.clone(), grid, interrupt)
+        let angles = angles.unwrap_or_else(|| vec![self.path.at(0.0).phi]);
+        Reached::new(&self.name, &self.rod, self.objects.clone(), distances, angles, interrupt)
     }
 }
 
@@ -90,7 +82,8 @@ pub struct OutlinePart {
 }
 
 impl Reached {
-    /// What the scans of a grid touch of objects. Interrupted, there are fewer scans.
+    /// What scans at all `distances` (m, by default 0.1 to 0.9 of the rod's length) and `angles` (rad) touch of objects. Interrupted, there are
+    /// fewer scans.
     ///
     /// # Errors
     /// [`PlanError`].
@@ -98,9 +91,15 @@ impl Reached {
         name: &str,
         rod: &AnyRod,
         objects: Vec<Composite>,
-        grid: ReachGrid,
+        distances: Option<Vec<f64>>,
+        angles: Vec<f64>,
         interrupt: &Interrupt,
     ) -> Result<Self, PlanError> {
+        let length = rod.units().length;
+        let (from, to, count) = DISTANCES;
+        let share = |k: u32| f64::from(k) / f64::from(count - 1);
+        let usual = || (0..count).map(|k| length * (from + (to - from) * share(k))).collect();
+        let grid = ReachGrid { distances: distances.unwrap_or_else(usual), angles, ..ReachGrid::of(rod) };
         let all = (2 * grid.distances.len() * grid.angles.len()) as f64;
         let found = reach(rod, &objects, &grid, &|done| {
             interrupt.pass(done as f64 / all);

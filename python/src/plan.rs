@@ -1,0 +1,76 @@
+//! Which scans to make next.
+
+use crate::array::{Column, Floats, Get, structured, whole};
+use crate::reconstruct::PyReconstruction;
+use crate::simulate::model;
+use crate::{errors, running};
+use pyo3::prelude::*;
+use rod_files::{PlanRequest, Planned, PlannedScan};
+use std::borrow::Cow;
+
+const CANDIDATES: &[Column<PlannedScan>] = &[
+    Column { name: "candidate", get: Get::Int(|row| row.candidate as i64) },
+    Column { name: "chosen", get: Get::Int(|row| row.chosen.unwrap_or(0) as i64) },
+    Column { name: "angle", get: Get::Float(|row| row.from.phi) },
+    Column { name: "distance", get: Get::Float(|row| row.scan.map_or(f64::NAN, |scan| scan.distance)) },
+    Column {
+        name: "pass",
+        get: Get::Text(|row| row.scan.map_or(Cow::Borrowed(""), |scan| Cow::Owned(scan.pass.to_string()))),
+    },
+    Column { name: "x_from", get: Get::Float(|row| row.from.x) },
+    Column { name: "y_from", get: Get::Float(|row| row.from.y) },
+    Column { name: "x_to", get: Get::Float(|row| row.to.x) },
+    Column { name: "y_to", get: Get::Float(|row| row.to.y) },
+    Column { name: "gain", get: Get::Float(|row| row.gain) },
+    Column { name: "gain_sigma", get: Get::Float(|row| row.gain_sigma) },
+    Column { name: "touched", get: Get::Float(|row| row.touched) },
+    Column { name: "time", get: Get::Float(|row| row.time) },
+    Column { name: "largest_moment", get: Get::Float(|row| row.largest_moment) },
+    Column { name: "largest_stress", get: Get::Float(|row| row.largest_stress.unwrap_or(f64::NAN)) },
+    Column { name: "blocked", get: Get::Float(|row| row.blocked) },
+    Column { name: "sigma", get: Get::Float(|row| row.sigma.unwrap_or(f64::NAN)) },
+    Column { name: "known_sigma_after", get: Get::Float(|row| row.known_sigma_after.unwrap_or(f64::NAN)) },
+];
+
+/// The points x, y (m) of an outline.
+type Points = Vec<[f64; 2]>;
+
+/// The table of :func:`vibrissa.plan`, and the outlines of the hypotheses.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
+pub fn _plan<'py>(
+    py: Python<'py>,
+    found: &PyReconstruction,
+    distances: Option<Floats<'py>>,
+    angles: Option<Floats<'py>>,
+    #[pyo3(from_py_with = whole)] scans: usize,
+    stress: Option<f64>,
+    noise: Option<&Bound<'py, PyAny>>,
+    rate: f64,
+    speed: f64,
+    #[pyo3(from_py_with = whole)] hypotheses: usize,
+    #[pyo3(from_py_with = whole)] seed: u64,
+) -> PyResult<(Bound<'py, PyAny>, Vec<Points>)> {
+    let positive = [("stress", stress, "Pa"), ("rate", Some(rate), "Hz"), ("speed", Some(speed), "m/s")];
+    for (what, value, unit) in positive {
+        if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
+            let value = value.unwrap_or(f64::NAN);
+            return Err(errors::value(format!("{what} is {value} {unit}, expected a positive, finite number")));
+        }
+    }
+    let found = found.found();
+    let fit = found.fitted().ok_or_else(|| {
+        errors::value("the reconstruction has no fitted contour, expected one of a recording with noise, without friction, and with fit=True")
+    })?;
+    let [distances, angles] =
+        [distances, angles].map(|values| values.map(|values| values.view().iter().copied().collect::<Vec<f64>>()));
+    let noise = noise.map(model).transpose()?;
+    let request =
+        PlanRequest { distances, angles, noise, rate, speed, count: scans, most_stress: stress, hypotheses, seed };
+    let (rod, known) = (&found.rod, fit.objects.clone());
+    let planned = running::interruptible(py, |interrupt| Planned::new("", rod, known, &request, interrupt))?
+        .map_err(errors::value)?;
+    let outlines = planned.plan.hypotheses.iter().flat_map(|one| one.objects.iter().zip(&one.outlines));
+    let points = outlines.map(|(object, outline)| outline.points(object).map(|(_, at)| [at.x, at.y]).collect());
+    Ok((structured(py, CANDIDATES, planned.rows().iter())?, points.collect()))
+}

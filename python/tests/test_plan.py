@@ -1,0 +1,73 @@
+"""The next scans: the numbers of the command, tables, a figure, errors."""
+
+from __future__ import annotations
+
+import csv
+import math
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import SCENES
+
+import vibrissa
+import vibrissa.plot
+
+NOISE = {"white": {"force": 2.5e-3, "m0z": 6e-5}}
+ANGLES = [60.0, 90.0, 120.0]
+
+
+@pytest.fixture(scope="module")
+def found() -> vibrissa.Reconstruction:
+    scene = vibrissa.Scene.read(SCENES / "O1_q40.toml")
+    samples = vibrissa.simulate(scene, rate=50.0, speed=1e-2, noise=NOISE, seed=10)
+    return vibrissa.reconstruct(scene.rod, samples, noise=NOISE, as_is=True)
+
+
+def plan(found: vibrissa.Reconstruction) -> vibrissa.Plan:
+    return vibrissa.plan(found, distances=[0.05, 0.07], angles=[math.radians(angle) for angle in ANGLES], hypotheses=2, noise=NOISE)
+
+
+def test_tables_and_figure(found: vibrissa.Reconstruction) -> None:
+    planned = plan(found)
+    assert len(planned.candidates) == 12 and len(planned.hypotheses) >= 2
+    assert list(planned.chosen["chosen"]) == list(range(1, len(planned.chosen) + 1))
+    assert (planned.candidates["gain"][1:] <= planned.candidates["gain"][:-1]).all()
+    assert planned.to_pandas().attrs["units"]["gain"] == "m"
+    ax = planned.plot()
+    assert planned.plot(ax) is ax
+    labels = ax.get_legend_handles_labels()[1]
+    assert "touched" in labels and "hypotheses" in labels
+
+
+def test_numbers_are_those_of_the_command(found: vibrissa.Reconstruction, command: list[str], tmp_path: Path) -> None:
+    shutil.copy(SCENES / "O1_q40.toml", tmp_path)
+    rows = found.samples
+    names = ["x0", "y0", "phi0", "f0x", "f0y", "m0z"]
+    lines = [",".join(names), *(",".join(repr(float(row[name])) for name in names) for row in rows)]
+    (tmp_path / "recording.csv").write_text("\n".join(lines) + "\n")
+    (tmp_path / "noise.toml").write_text("white = { force = 2.5e-3, m0z = 6e-5 }\n")
+    rod = ["--rod", "O1_q40.toml", "--noise", "noise.toml"]
+    for arguments in (
+        ["reconstruct", "recording.csv", *rod, "--as-is", "--out", "result"],
+        ["plan", "result", *rod, "--distances", "0.05,0.07", "--angles", "60,90,120", "--hypotheses", "2", "--out", "next"],
+    ):
+        subprocess.run([*command, *arguments], cwd=tmp_path, check=True, capture_output=True)
+    ours = plan(found).candidates
+    with open(tmp_path / "next/candidates.csv") as file:
+        theirs = list(csv.DictReader(file))
+    assert [int(row["chosen"] or 0) for row in theirs] == list(ours["chosen"])
+    for name in ("angle", "x_from", "y_to", "gain", "gain_sigma", "largest_stress", "sigma", "known_sigma_after"):
+        np.testing.assert_array_equal([float(row[name] or "nan") for row in theirs], ours[name], err_msg=name)
+
+
+def test_wrong_arguments_are_named(found: vibrissa.Reconstruction) -> None:
+    local = vibrissa.reconstruct(found.rod, found.samples, noise=NOISE, as_is=True, fit=False)
+    with pytest.raises(ValueError, match="no fitted contour, expected one of a recording with noise"):
+        vibrissa.plan(local)
+    with pytest.raises(ValueError, match="stress is -1 Pa, expected a positive, finite number"):
+        vibrissa.plan(found, stress=-1.0)
+    with pytest.raises(ValueError, match="distances has 0.2 m, expected more than 0"):
+        vibrissa.plan(found, distances=0.2)
