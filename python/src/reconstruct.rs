@@ -11,7 +11,7 @@ use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyTuple;
-use rod_files::{FittedPoint, Reconstructed, ReconstructionError, Recording};
+use rod_files::{FittedPoint, Reconstructed, ReconstructionError, Recording, Together};
 use std::ffi::CString;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
@@ -387,19 +387,8 @@ pub fn reconstruct(
     friction: Option<&Bound<'_, PyAny>>,
     fit: bool,
 ) -> PyResult<PyReconstruction> {
-    let default = Settings::default();
-    let settings = Settings {
-        noise: noise.map(model).transpose()?.map(|model| model.channels()),
-        false_alarms: false_alarms.unwrap_or(default.false_alarms),
-        largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
-        budget: as_is.then_some(Budget::NONE),
-        known: default.known,
-        friction: friction.map_or(Ok(default.friction), friction_of)?,
-    };
-    let recording = match samples.downcast::<PyRecording>() {
-        Ok(recording) => recording.get().recording.clone(),
-        Err(_) => recording(samples.extract()?),
-    };
+    let settings = settings_of(noise, false_alarms, largest_sigma, as_is, friction)?;
+    let recording = recording_of(samples)?;
     let given = rod.rod.clone();
     let reconstructed = || {
         let mut found = Reconstructed::new(recording, given, &settings)?;
@@ -409,18 +398,104 @@ pub fn reconstruct(
         Ok(found)
     };
     let found = running::run(py, reconstructed)?.map_err(|error: ReconstructionError| errors::value(error))?;
+    told(py, rod, found, settings)
+}
+
+/// The settings that keywords give.
+fn settings_of(
+    noise: Option<&Bound<'_, PyAny>>,
+    false_alarms: Option<f64>,
+    largest_sigma: Option<f64>,
+    as_is: bool,
+    friction: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Settings> {
+    let default = Settings::default();
+    Ok(Settings {
+        noise: noise.map(model).transpose()?.map(|model| model.channels()),
+        false_alarms: false_alarms.unwrap_or(default.false_alarms),
+        largest_sigma: largest_sigma.unwrap_or(default.largest_sigma),
+        budget: as_is.then_some(Budget::NONE),
+        known: default.known,
+        friction: friction.map_or(Ok(default.friction), friction_of)?,
+    })
+}
+
+fn recording_of(samples: &Bound<'_, PyAny>) -> PyResult<Recording> {
+    match samples.downcast::<PyRecording>() {
+        Ok(recording) => Ok(recording.get().recording.clone()),
+        Err(_) => Ok(recording(samples.extract()?)),
+    }
+}
+
+/// Warns, as warnings of the category UserWarning.
+fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
+    let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
+}
+
+/// A reconstruction, with warnings of what does not fit.
+fn told(py: Python<'_>, rod: &PyRod, found: Reconstructed, settings: Settings) -> PyResult<PyReconstruction> {
     let mut doubts: Vec<String> = Vec::new();
     if !found.fits() {
         let findings: Vec<_> = found.findings().map(ToString::to_string).collect();
         doubts.push(format!("recording, units and rod do not fit: {}", findings.join("; ")));
     }
     doubts.extend(found.contradiction().into_iter().chain(found.doubt()));
-    for text in doubts {
-        let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
-    }
+    doubts.iter().try_for_each(|text| warn(py, text))?;
     let rod = rod.clone();
     Ok(PyReconstruction { rod, found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })
+}
+
+/// Reconstruct several recordings of one object with one contour, as the command ``vibrissa reconstruct`` does.
+///
+/// Each recording has a bias and a drift of its own; all other errors of rod, sensor, clamp and stage are those of all. If each
+/// recording has a contour that explains it, but none was found that explains all, each keeps its own result, and a warning says so.
+///
+/// Parameters
+/// ----------
+/// rod : Rod
+///     The rod of all recordings.
+/// samples : sequence of Recording or table
+///     The recordings, with poses in one frame, each as for :func:`reconstruct`.
+/// noise, false_alarms, largest_sigma, as_is
+///     As for :func:`reconstruct`.
+///
+/// Returns
+/// -------
+/// list of Reconstruction
+///     One for each recording.
+///
+/// Raises
+/// ------
+/// ValueError
+///     Too few samples of a recording can be used, or an argument is not possible.
+#[pyfunction]
+#[pyo3(signature = (rod, samples, *, noise=None, false_alarms=None, largest_sigma=None, as_is=false))]
+pub fn reconstruct_together(
+    py: Python<'_>,
+    rod: &PyRod,
+    samples: Vec<Bound<'_, PyAny>>,
+    noise: Option<&Bound<'_, PyAny>>,
+    false_alarms: Option<f64>,
+    largest_sigma: Option<f64>,
+    as_is: bool,
+) -> PyResult<Vec<PyReconstruction>> {
+    let settings = settings_of(noise, false_alarms, largest_sigma, as_is, None)?;
+    let recordings: Vec<Recording> = samples.iter().map(recording_of).collect::<PyResult<_>>()?;
+    let given = rod.rod.clone();
+    let reconstructed = || {
+        let local = |recording| Reconstructed::new(recording, given.clone(), &settings);
+        let mut found: Vec<Reconstructed> =
+            recordings.into_iter().map(local).collect::<Result<_, ReconstructionError>>()?;
+        let together = Together::fit(&mut found, &settings, |_| {});
+        Ok((found, together))
+    };
+    let (found, together) =
+        running::run(py, reconstructed)?.map_err(|error: ReconstructionError| errors::value(error))?;
+    if let Some(why) = together.and_then(|together| together.contradiction(&found)) {
+        warn(py, &why)?;
+    }
+    found.into_iter().map(|one| told(py, rod, one, settings)).collect()
 }
 
 /// What is known of friction, from a coefficient, a coefficient with its standard deviation, or a word.

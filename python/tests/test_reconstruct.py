@@ -179,3 +179,17 @@ def test_single_points_are_exact_where_there_is_one_contact() -> None:
     two = scan.states["phase"] == "BB"
     assert np.nanmax(np.abs(gap(points["x"][two], points["y"][two]))) > 1e-3
     assert not points["fits"][scan.states["phase"] == "free"].any()
+
+
+def test_several_recordings_share_a_contour() -> None:
+    scans = [vibrissa.Scene.read(SCENES / f"O2_q{q}.toml") for q in (40, 60)]
+    samples = [vibrissa.simulate(scene, rate=20, speed=2e-3, noise=NOISE, seed=k) for k, scene in enumerate(scans)]
+    rod = scans[0].rod
+    found = vibrissa.reconstruct_together(rod, samples, as_is=True)
+    assert [one.is_explained for one in found] == [True, True]
+    assert np.array_equal(found[0].fitted["x"], found[1].fitted["x"])
+    alone = vibrissa.reconstruct(rod, samples[0], as_is=True)
+    sigmas = [np.nanmedian(one.fitted["sigma"]) for one in (found[0], alone)]
+    assert sigmas[0] < 1.2 * sigmas[1]
+    with pytest.raises(ValueError):
+        vibrissa.reconstruct_together(rod, [samples[0], np.zeros((3, 6))])

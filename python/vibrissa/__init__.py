@@ -21,7 +21,7 @@ Scans to make
     :func:`reach` gives the parts of objects that straight scans can touch, as :class:`Reach`; :func:`plan` chooses the next scans from a
     reconstruction, as :class:`Plan`.
 From reactions to the object
-    :func:`reconstruct` gives a :class:`Reconstruction`, :func:`single` the point of each sample on its own; :class:`Recording` reads files, :func:`simulate` makes recordings with
+    :func:`reconstruct` gives a :class:`Reconstruction`, :func:`reconstruct_together` one for each of several recordings of one object, :func:`single` the point of each sample on its own; :class:`Recording` reads files, :func:`simulate` makes recordings with
     noise, :class:`Live` answers while samples come.
 Forces from shapes
     :func:`forces` gives :class:`Forces` from points on the rod, frame by frame; :mod:`vibrissa.tracking` reads WHISK, WhiskiWrap, DeepLabCut, SLEAP and
@@ -73,6 +73,7 @@ from ._core import (
     elastica,
     equilibrium,
     reconstruct,
+    reconstruct_together,
     simulate,
     single,
     sweep,
@@ -138,6 +139,7 @@ __all__ = [
     "reach",
     "read_study",
     "reconstruct",
+    "reconstruct_together",
     "simulate",
     "single",
     "study",

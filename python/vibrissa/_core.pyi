@@ -630,6 +630,15 @@ def reconstruct(
     friction: float | tuple[float, float] | str | None = None,
     fit: bool = True,
 ) -> Reconstruction: ...
+def reconstruct_together(
+    rod: Rod,
+    samples: Sequence[_Samples],
+    *,
+    noise: _Noise | None = None,
+    false_alarms: float | None = None,
+    largest_sigma: float | None = None,
+    as_is: bool = False,
+) -> list[Reconstruction]: ...
 def sweep(
     rod: Rod,
     objects: _Objects,

@@ -52,9 +52,9 @@ pub enum Finish {
 
 /// Proposes scans of an object, takes what was measured on them, and proposes the next one.
 ///
-/// Guaranteed, if the object is in its box and recordings are explained by the model: the clamp of a proposed path never enters the object, because it stays outside the box
-/// or where the rod has been; and the rod bends no further at its clamp than the largest stress if the rig stops by [`Abort`]. Expected only, from the hypotheses about the
-/// object: that the stress elsewhere in the rod is below the largest one, and what a scan adds.
+/// The clamp of a proposed path stays outside the box, or where the rod has been by the contours that were fitted so far: it does not enter the object if that is in its box
+/// and these contours are right. The rod bends no further at its clamp than the largest stress if the rig stops by [`Abort`]. Expected only, from the hypotheses
+/// about the object: that the stress elsewhere in the rod is below the largest one, and what a scan adds.
 #[derive(Clone, Debug)]
 pub struct Explorer {
     rod: Rod,

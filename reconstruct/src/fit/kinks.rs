@@ -87,7 +87,7 @@ mod tests {
         let label = |k: usize| if k < changes { Label::B } else { Label::A };
         let (kind, zeros) = (KinkKind::Kink, [0.0; 3]);
         let kink = Kink { kind, next: 105, tau: 0.0, sigma_tau: 0.0, change: zeros, sigma: zeros, score: 100.0 };
-        let readings: Vec<Reading> = (0..210).map(|k| Reading::of_model(label(k), 0.99, &[touch(k)])).collect();
+        let readings: Vec<Reading> = (0..210).map(|k| Reading::of_model(label(k), 0.99, &[Ok(touch(k))])).collect();
         fit.unexplained_kinks(&[kink], &readings)
     }
 
