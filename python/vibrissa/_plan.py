@@ -119,6 +119,6 @@ def plan(
     ValueError
         The reconstruction has no fitted contour, or an argument is not possible.
     """
-    given = [None if values is None else np.atleast_1d(np.asarray(values)) for values in (distances, angles)]
-    candidates, drawn = _plan(found, *given, scans, stress, noise, rate, speed, hypotheses, seed)
+    distances, angles = (None if values is None else np.atleast_1d(np.asarray(values)) for values in (distances, angles))
+    candidates, drawn = _plan(found, distances, angles, scans, stress, noise, rate, speed, hypotheses, seed)
     return Plan(candidates, [np.asarray(points) for points in drawn], found)
