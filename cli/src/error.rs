@@ -79,7 +79,11 @@ impl Error {
 
     /// The table that cannot be read, if this is why the command fails: the name of the file as a shell takes it.
     pub fn unread_table(&self) -> Option<String> {
-        let Self::Live(error) = self else { return None };
+        let error = match self {
+            Self::Live(error) => error,
+            Self::Film(FilmError::Missing { file, .. }) => return Some(quoted(&file.display().to_string())),
+            _ => return None,
+        };
         let file = match error {
             LiveError::Recording(
                 RecordingError::Empty { file }

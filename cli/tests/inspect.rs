@@ -367,10 +367,15 @@ fn a_sensor_and_its_stage_belong_together() {
         table("t\tstage_x\tstage_y\tangle\n", "\t", |[t, x, y, phi, ..]| [1e3 * t, 1e3 * x, 1e3 * y, phi.to_degrees()]);
     fs::write(directory.path().join("ati.csv"), ati).unwrap();
     fs::write(directory.path().join("stage.tsv"), stage).unwrap();
-    let files = ["ati.csv", "stage.tsv", "--rod", "rod.toml", "--write-setup", "sensor.toml"];
+    let files = ["ati.csv", "stage.tsv", "--rod", "rod.toml", "--write-setup", "sensor.toml", "--stage-delay", "0"];
     let (found, status) = inspected(directory.path(), &files);
     assert_eq!(status, 0, "{found:#}");
-    assert!(words(&found).contains("--stage table:stage.tsv --setup sensor.toml"), "{}", words(&found));
+    assert!(
+        words(&found).contains("--stage table:stage.tsv --stage-delay 0 s --setup sensor.toml"),
+        "{}",
+        words(&found)
+    );
+    assert!(fact(&found, "frame").starts_with("the physics prefers"), "{found:#}");
     let setup = fs::read_to_string(directory.path().join("sensor.toml")).unwrap();
     assert!(setup.contains("axes = [\"-y\", \"x\", \"z\"]") && setup.contains("sense = \"load\""), "{setup}");
     assert!(fact(&found, "frame").contains("f0x = -Fy, f0y = Fx, m0z = -Tz"), "{found:#}");
@@ -392,9 +397,12 @@ fn a_sensor_with_three_components() {
     let stage = table("t,x0,y0,phi0\n", ",", |[t, x, y, phi, ..]| [*t, *x, *y, *phi]);
     fs::write(directory.path().join("log.csv"), log).unwrap();
     fs::write(directory.path().join("stage.csv"), stage).unwrap();
-    let files = ["log.csv", "stage.csv", "--rod", "rod.toml", "--write-setup", "sensor.toml"];
+    let files = ["log.csv", "stage.csv", "--rod", "rod.toml", "--write-setup", "sensor.toml", "--stage-delay", "0"];
     let (found, status) = inspected(directory.path(), &files);
     assert_eq!(status, 0, "{found:#}");
+    assert!(fact(&found, "frame").starts_with("the columns are loads on the sensor"), "{found:#}");
+    let setup = fs::read_to_string(directory.path().join("sensor.toml")).unwrap();
+    assert!(setup.contains("sense = \"load\" # it measures what the rod does to it"), "{setup}");
     runs(directory.path(), &found);
 }
 
@@ -406,11 +414,12 @@ fn reactions_without_poses_belong_to_a_stage() {
     let stage = table("t,x0,y0,phi0\n", ",", |[t, x, y, phi, ..]| [*t, *x, *y, *phi]);
     fs::write(directory.path().join("log.csv"), log).unwrap();
     fs::write(directory.path().join("stage.csv"), stage).unwrap();
-    let files = ["log.csv", "stage.csv", "--rod", "rod.toml", "--write-setup", "sensor.toml"];
+    let files = ["log.csv", "stage.csv", "--rod", "rod.toml", "--write-setup", "sensor.toml", "--stage-delay", "0"];
     let (found, status) = inspected(directory.path(), &files);
     assert_eq!(status, 0, "{found:#}");
     let setup = fs::read_to_string(directory.path().join("sensor.toml")).unwrap();
-    assert!(setup.contains("sense = \"reaction\""), "{setup}");
+    assert!(setup.contains("sense = \"reaction\" # it measures what it does to the rod"), "{setup}");
+    assert!(fact(&found, "frame").starts_with("the columns are reactions on the rod: f0x = Fx"), "{found:#}");
     runs(directory.path(), &found);
 }
 
@@ -680,7 +689,8 @@ fn common_times_tell_seconds_from_milliseconds() {
             let _ = writeln!(text, "{},{x},{y},{phi}", factor * t);
         }
         fs::write(directory.path().join("stage.csv"), text).unwrap();
-        let (found, status) = inspected(directory.path(), &["log.csv", "stage.csv", "--rod", "rod.toml"]);
+        let files = ["log.csv", "stage.csv", "--rod", "rod.toml", "--stage-delay", "0"];
+        let (found, status) = inspected(directory.path(), &files);
         assert_eq!((status, found["files"][1]["columns"][0]["unit"].as_str()), (0, unit.get(2..)), "{found:#}");
     }
     // alone, too, the name stands for seconds
@@ -733,4 +743,139 @@ fn a_name_of_any_length_is_looked_at() {
     fs::write(directory.path().join("long.csv"), "x".repeat(70_000)).unwrap();
     let output = vibrissa(directory.path(), &["inspect", "long.csv"]);
     assert!(output.status.code() == Some(2) && output.stdout.len() < 10_000, "{}", output.stdout.len());
+}
+
+/// The text of a row of the recording under foreign names: time, mm, degrees.
+fn lab_rows(time: impl Fn(f64) -> String, separator: &str) -> String {
+    let mut text = String::new();
+    for [t, x, y, phi, fx, fy, mz] in recording() {
+        let cells = [1e3 * x, 1e3 * y, phi.to_degrees(), *fx, *fy, 1e3 * mz].map(|value| format!("{value:.9e}"));
+        let _ = writeln!(text, "{}{separator}{}", time(*t), cells.join(separator));
+    }
+    text
+}
+
+/// Hours, minutes and seconds.
+fn clock(t: f64) -> String {
+    let milliseconds = (1e3 * t).round() as u64;
+    let (seconds, rest) = (milliseconds / 1000, milliseconds % 1000);
+    format!("{:02}:{:02}:{:02}.{rest:03}", 10 + seconds / 3600, seconds / 60 % 60, seconds % 60)
+}
+
+const LAB: &str = "Stage X [mm],Stage Y [mm],Angle [deg],Force X [N],Force Y [N],Moment Z [N mm]\n";
+
+#[test]
+fn dates_are_times() {
+    let rate = |found: &Value| fact(found, "rate").split(' ').next().unwrap().parse::<f64>().unwrap();
+    for (name, time) in [
+        ("Timestamp", (|t| format!("2026-03-12T{}", clock(t))) as fn(f64) -> String),
+        ("Timestamp", |t| format!("2026-03-12T{}Z", clock(t))),
+        ("time", |t| format!("2026-03-12 {}", clock(t))),
+        ("Zeit", |t| format!("12.03.2026 {}", clock(t))),
+        ("Date,Time", |t| format!("12.03.2026,{}", clock(t))),
+    ] {
+        let found = settles("scan.csv", (format!("{name},{LAB}") + &lab_rows(time, ",")).as_bytes());
+        assert!((rate(&found) - 100.0).abs() < 0.01, "{found:#}");
+        assert!(meanings(&found).contains(&"t s".to_owned()), "{found:#}");
+        assert!(!found.to_string().contains("NaN"), "{found:#}");
+    }
+    // a spreadsheet counts days
+    let days = |t: f64| format!("{:.10}", 46_093.0 + (36_000.0 + t) / 86_400.0);
+    let found = settles("scan.csv", (format!("Timestamp,{LAB}") + &lab_rows(days, ",")).as_bytes());
+    assert!(meanings(&found)[0] == "t day" && (rate(&found) - 100.0).abs() < 0.5, "{found:#}");
+    let text = format!("Timestamp,{LAB}") + &lab_rows(|_| "noon".to_owned(), ",");
+    let (found, status) = looked(&text, ROD);
+    assert!(status == 2 && !found.to_string().contains("do not grow"), "{found:#}");
+}
+
+#[test]
+fn rows_below_the_table_are_not_of_the_scan() {
+    let text =
+        format!("Time [s],{LAB}") + &lab_rows(|t| t.to_string(), ",") + "\nMean,1,2,3,4,5,6\nMax,2,3,4,5,6,7\nend\n";
+    let found = settles("scan.csv", text.as_bytes());
+    assert!(fact(&found, "motion of the clamp").starts_with("straight, 40.00 mm"), "{found:#}");
+    assert!(found["files"][0]["columns"][4]["most"].as_f64().unwrap() < 1.0, "{found:#}");
+}
+
+#[test]
+fn spellings_of_units_and_notes() {
+    let rows = lab_rows(|t| t.to_string(), ",");
+    for head in [
+        "Time in s,Stage X in mm,Stage Y in mm,Angle in degrees,Force X in N,Force Y in N,Moment Z in N mm\n",
+        "t [s],Stage X [mm],Stage Y [mm],Angle [deg],Force X [N],Force Y [N],Moment Z [N×mm]\n",
+        "Время [с],Положение X [мм],Положение Y [мм],Угол [град],Сила X [Н],Сила Y [Н],Момент Z [Н·мм]\n",
+        "time,pose.position.x [mm],pose.position.y [mm],pose.yaw [deg],wrench.force.x [N],wrench.force.y [N],wrench.torque.z [newton millimetre]\n",
+    ] {
+        settles("scan.csv", (head.to_owned() + &rows).as_bytes());
+    }
+    // a unit that is not understood is no statement
+    let head = format!("t [s],{LAB}").replace("N mm", "foot-ells");
+    let (found, status) = looked(&(head + &rows), ROD);
+    assert!(status == 0 || questions(&found).contains("the unit `foot-ells` was not understood"), "{found:#}");
+    assert!(!questions(&found).contains("the file states another unit"), "{found:#}");
+    let note = rows.find("\n0.5").unwrap() + 1;
+    let noted = format!("// rig 2\nt [s],{LAB}{}// note, with comma\n{}", &rows[..note], &rows[note..]);
+    settles("scan.csv", noted.as_bytes());
+    // a column that nobody needs asks nothing
+    let warm: String = format!("t [s],{LAB}{rows}")
+        .lines()
+        .zip(0..)
+        .fold(String::new(), |text, (line, k)| text + line + if k == 0 { ",Temperature [°C]\n" } else { ",20.5\n" });
+    settles("scan.csv", warm.as_bytes());
+}
+
+#[test]
+fn a_column_without_a_name_is_asked_for() {
+    let text = format!("t [s],{LAB}").replace("Angle [deg]", "") + &lab_rows(|t| t.to_string(), ",");
+    let (found, status) = looked(&text, ROD);
+    assert!(status == 2 && questions(&found).contains("--column 'phi0=column 4'"), "{found:#}");
+    assert!(!found.to_string().contains("a second table"), "{found:#}");
+    let (found, status) = looked(&text, &[ROD, &["--column", "phi0=column 4"]].concat());
+    assert_eq!(status, 0, "{found:#}");
+}
+
+#[test]
+fn exchanged_coordinates_are_offered() {
+    let text = table(OWN, ",", |[t, x, y, phi, fx, fy, mz]| [*t, *y, *x, *phi, *fx, *fy, *mz]);
+    let (found, status) = looked(&text, ROD);
+    assert!(status == 2 && questions(&found).contains("--column x0=y0 --column y0=x0"), "{found:#}");
+    let (found, status) = looked(&text, &[ROD, &["--column", "x0=y0", "--column", "y0=x0"]].concat());
+    assert_eq!(status, 0, "{found:#}");
+}
+
+/// 90 degrees are no 90 radians, however well another hypothesis fits.
+#[test]
+fn an_angle_beyond_a_turn_is_not_in_radians() {
+    let text = table("t,x0,y0,phi0 [deg],Fx [N],Fy [N],Mz [N m]\n", ",", |[t, x, y, phi, fx, fy, mz]| {
+        let (sin, cos) = 20_f64.to_radians().sin_cos();
+        [*t, *x, *y, phi.to_degrees(), cos * fx + sin * fy, cos * fy - sin * fx, *mz]
+    });
+    let (found, status) = looked(&text, ROD);
+    assert!(status == 2 && !questions(&found).contains("phi0=rad"), "{found:#}");
+}
+
+#[test]
+fn too_few_rows_are_said() {
+    for rows in [0, 3] {
+        let text: String = own().lines().take(1 + rows).map(|line| line.to_owned() + "\n").collect();
+        let (found, status) = looked(&text, ROD);
+        let fault = &found["files"][0]["faults"][0];
+        assert!(status == 2 && fault["value"] == rows.to_string().as_str(), "{found:#}");
+        assert!(
+            fault["expected"].as_str().unwrap().starts_with("at least 16 rows") && questions(&found).is_empty(),
+            "{found:#}"
+        );
+    }
+}
+
+#[test]
+fn files_of_trackers_are_no_tables_of_points() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = "scorer,net,net,net,net,net,net\nbodyparts,base,base,base,tip,tip,tip\ncoords,x,y,likelihood,x,y,likelihood\n0,1,2,0.9,3,4,0.8\n";
+    fs::write(directory.path().join("points.csv"), text).unwrap();
+    fs::write(directory.path().join("rod.toml"), SCENE).unwrap();
+    let output = vibrissa(directory.path(), &["forces", "points.csv", "--rod", "rod.toml"]);
+    let said = complaint(&output);
+    assert!(said.contains("found scorer, net;") && said.contains("read_deeplabcut"), "{said}");
+    assert!(said.ends_with("`vibrissa inspect points.csv` shows what the file holds.\n"), "{said}");
 }

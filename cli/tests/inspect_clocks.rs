@@ -160,3 +160,168 @@ fn measured_delays() {
     );
     assert!(errors.len() > 30 && at(0.9) < 0.2, "{errors:?}");
 }
+
+/// The constant pass of the recording as a sensor of 100 Hz and a stage of 20 Hz, whose clock began `apart` later; both files begin and end together, at
+/// `origin`.
+fn pass(directory: &Path, apart: f64, origin: f64, stage_rows: impl Fn(f64) -> bool) {
+    let rows = recording();
+    let end = rows.len() - 1;
+    let at = |t: f64| rows[((100.0 * t).round().max(0.0) as usize).min(end)];
+    let mut noise = 7_u32;
+    let mut normal = || {
+        let mut one = || {
+            noise ^= noise << 13;
+            noise ^= noise >> 17;
+            noise ^= noise << 5;
+            f64::from(noise) / f64::from(u32::MAX)
+        };
+        (0..12).map(|_| one()).sum::<f64>() - 6.0
+    };
+    let mut sensor = "t [s],Fx [N],Fy [N],Tz [N m]\n".to_owned();
+    for [t, _, _, _, fx, fy, mz] in rows {
+        let (fx, fy, mz) = (fx + NOISE[0] * normal(), fy + NOISE[0] * normal(), mz + NOISE[1] * normal());
+        let _ = writeln!(sensor, "{:.3},{fx},{fy},{mz}", origin + t);
+    }
+    let mut stage = "t [s],x0,y0,phi0\n".to_owned();
+    for t in (0..=end / 5).map(|k| 0.05 * k as f64).filter(|t| stage_rows(*t)) {
+        let [_, x, y, phi, ..] = at(t + apart);
+        let _ = writeln!(stage, "{:.3},{x},{y},{phi}", origin + t);
+    }
+    fs::write(directory.join("force.csv"), sensor).unwrap();
+    fs::write(directory.join("stage.csv"), stage).unwrap();
+}
+
+/// Nothing in a pass at constant speed tells clocks apart by less than the free parts of the way: files that begin and end together were taken for one
+/// clock, and the object was off by speed times delay.
+#[test]
+fn files_that_begin_and_end_together_may_have_two_clocks() {
+    for apart in [0.0, 0.3, -1.0] {
+        let directory = tempfile::tempdir().unwrap();
+        pass(directory.path(), apart, 0.0, |_| true);
+        let (found, status) = inspected(directory.path(), &FILES);
+        let asked = questions(&found);
+        assert!(
+            status == 2 && asked.contains("within this range the object is shifted by up to"),
+            "{apart}: {found:#}"
+        );
+        assert!(asked.contains("--stage-delay '0 s' (both have one clock)"), "{apart}: {asked}");
+        let options = ["--stage-delay", "0", "--write-setup", "sensor.toml"];
+        let (found, status) = inspected(directory.path(), &[&FILES[..], &options].concat());
+        assert_eq!(status, 0, "{apart}: {found:#}");
+    }
+}
+
+/// Times since 1970 of two computers: the stage starts after the reactions change.
+#[test]
+fn reactions_that_change_before_the_stage_moves_refute_one_clock() {
+    let directory = tempfile::tempdir().unwrap();
+    pass(directory.path(), 0.0, 1.7e9, |_| true);
+    let text = fs::read_to_string(directory.path().join("stage.csv")).unwrap();
+    let later = |line: &str| match line.split_once(',') {
+        Some((t, rest)) if t.parse::<f64>().is_ok() => format!("{:.3},{rest}\n", 15.0 + t.parse::<f64>().unwrap()),
+        _ => format!("{line}\n"),
+    };
+    fs::write(directory.path().join("stage.csv"), text.lines().map(later).collect::<String>()).unwrap();
+    let (found, status) = inspected(directory.path(), &FILES);
+    let asked = questions(&found);
+    assert!(status == 2 && asked.contains("With one clock the reactions change at"), "{found:#}");
+    assert!(asked.contains("although the clamp does not move, before it starts at 1700000015.000 s"), "{found:#}");
+}
+
+/// A stage that stands in contact: reactions that change meanwhile refute even a delay that was stated.
+#[test]
+fn a_stop_in_contact_refutes_a_stated_delay() {
+    let directory = tempfile::tempdir().unwrap();
+    two_noisy_files(directory.path(), 0.0, REST, &mut || 0.0);
+    let text = fs::read_to_string(directory.path().join("stage.csv")).unwrap();
+    // the clamp stands in contact for 3 s, and the log goes on
+    let rows: Vec<&str> = text.lines().collect();
+    let last: Vec<&str> = rows[rows.len() - 1].split(',').collect();
+    let mut longer = text.clone();
+    let end: f64 = last[0].parse().unwrap();
+    for k in 1..=50 {
+        let _ = writeln!(longer, "{:.2},{}", end + 0.05 * f64::from(k), last[1..].join(","));
+    }
+    // and comes back a little
+    let back: f64 = last[1].parse::<f64>().unwrap() + 1e-3;
+    let _ = writeln!(longer, "{:.2},{back},{}", end + 3.0, last[2..].join(","));
+    fs::write(directory.path().join("stage.csv"), longer).unwrap();
+    let (found, status) = inspected(directory.path(), &[&FILES[..], &["--stage-delay=-1"]].concat());
+    let asked = questions(&found);
+    assert!(status == 2 && asked.contains("With a delay of -1.0000 s the reactions change at"), "{found:#}");
+    assert!(!asked.contains("'-1 s'"), "{asked}");
+}
+
+/// Two rows say nothing of the speed between them.
+#[test]
+fn the_two_ends_of_a_motion_are_a_question() {
+    let directory = tempfile::tempdir().unwrap();
+    let last = 0.05 * ((recording().len() - 1) / 5) as f64;
+    pass(directory.path(), 0.0, 0.0, |t| t == 0.0 || t > last - 0.01);
+    let options = [&FILES[..], &["--stage-delay", "0", "--write-setup", "sensor.toml"]].concat();
+    let (found, status) = inspected(directory.path(), &options);
+    assert!(status == 2 && questions(&found).contains("is the speed of the clamp constant"), "{found:#}");
+    assert_eq!(found["commands"][0]["reads"], false);
+    // the row in the middle states it
+    pass(directory.path(), 0.0, 0.0, |t| t == 0.0 || (t - 0.5 * last).abs() < 0.03 || t > last - 0.01);
+    let (found, status) = inspected(directory.path(), &options);
+    assert_eq!(status, 0, "{found:#}");
+}
+
+/// The sensor's program was started anew: its rows got the poses of other times, and most were left out without a word.
+#[test]
+fn a_clock_that_begins_anew_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    pass(directory.path(), 0.0, 0.0, |_| true);
+    let text = fs::read_to_string(directory.path().join("force.csv")).unwrap();
+    let anew = text.lines().enumerate().map(|(k, line)| match line.split_once(',') {
+        Some((t, rest)) if k > 800 => format!("{:.3},{rest}\n", t.parse::<f64>().unwrap() - 8.0),
+        _ => format!("{line}\n"),
+    });
+    fs::write(directory.path().join("force.csv"), anew.collect::<String>()).unwrap();
+    let (found, status) = inspected(directory.path(), &[&FILES[..], &["--stage-delay", "0"]].concat());
+    let fault = &found["files"][0]["faults"][0];
+    assert!(status == 2 && fault["line"] == 802 && fault["prevents"] == true, "{found:#}");
+    let command =
+        ["reconstruct", "force.csv", "--rod", "rod.toml", "--stage", "table:stage.csv", "--setup", "s.toml", "--local"];
+    let setup = "[sensor]\ncomponents = [\"Fx\", \"Fy\", \"Tz\"]\nmatrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]\nforce_unit = \"N\"\n\
+                 torque_unit = \"N m\"\n[mounting]\nsense = \"reaction\"\n[recording]\ncolumns = [\"Fx\", \"Fy\", \"Tz\"]\n";
+    fs::write(directory.path().join("s.toml"), setup).unwrap();
+    let output = vibrissa(directory.path(), &command);
+    assert_eq!(output.status.code(), Some(1));
+    let said = complaint(&output);
+    assert!(said.contains("1201 of 2001 rows cannot be used") && said.contains("line 802: the time 0 s"), "{said}");
+}
+
+/// A logger that writes each row twice.
+#[test]
+fn rows_of_a_stage_that_are_there_twice_are_read_once() {
+    let directory = tempfile::tempdir().unwrap();
+    pass(directory.path(), 0.0, 0.0, |_| true);
+    let text = fs::read_to_string(directory.path().join("stage.csv")).unwrap();
+    let twice = text.lines().enumerate().map(|(k, line)| format!("{line}\n").repeat(if k == 0 { 1 } else { 2 }));
+    fs::write(directory.path().join("stage.csv"), twice.collect::<String>()).unwrap();
+    let options = ["--stage-delay", "0", "--write-setup", "sensor.toml"];
+    let (found, status) = inspected(directory.path(), &[&FILES[..], &options].concat());
+    assert!(status == 0 && found["commands"][0]["reads"] == true, "{found:#}");
+}
+
+/// A slow sensor: the tare takes the samples that it needs, not those of the first contact.
+#[test]
+fn a_slow_sensor_is_tared_before_it_touches() {
+    let directory = tempfile::tempdir().unwrap();
+    pass(directory.path(), 0.0, 0.0, |_| true);
+    let text = fs::read_to_string(directory.path().join("force.csv")).unwrap();
+    let free = recording().iter().position(|row| row[6].abs() > 1e-7).unwrap();
+    // 40 samples before the contact
+    let slow: String = text
+        .lines()
+        .enumerate()
+        .filter(|(k, _)| *k == 0 || k % (free / 40) == 0)
+        .map(|(_, line)| format!("{line}\n"))
+        .collect();
+    fs::write(directory.path().join("force.csv"), slow).unwrap();
+    let options = ["--stage-delay", "0", "--write-setup", "sensor.toml"];
+    let (found, status) = inspected(directory.path(), &[&FILES[..], &options].concat());
+    assert_eq!(status, 0, "{found:#}");
+}

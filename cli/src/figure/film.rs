@@ -20,6 +20,8 @@ const HEAD: u32 = 144;
 const PLOT: u32 = 240;
 /// Length of the largest force that is drawn, pixels.
 const ARROW: f64 = 110.0;
+/// How often the window is widened for the arrows. More changes nothing that is seen.
+const WIDER: usize = 4;
 /// Radius of a point, and half the width of the cross of a pole, pixels.
 const DOT: i32 = 2;
 const CROSS: f64 = 7.0;
@@ -44,22 +46,40 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
     if all().next().is_none() {
         return svg((PAGE, HEAD), |root| write(root, &found.name, (24, 36), HPos::Left, TITLE, INK));
     }
-    let (x, y) = (span(all().map(|point| point.0), 0.08), span(all().map(|point| point.1), 0.08));
-    let (window, height) = PlaneWindow::as_wide_as(PAGE, &x, &y, HEIGHT);
     let largest =
         judged().flat_map(|judged| &judged.contacts).fold(f64::MIN_POSITIVE, |most, contact| most.max(contact.force));
+    // an arrow that ends at the contact would lie in the pole
+    let arrows = |scale: f64| -> Vec<[Curve; 2]> {
+        let length = scale * ARROW / largest;
+        let one = |contact: &FrameContact| {
+            let at = (1e3 * contact.x, 1e3 * contact.y);
+            let end = if extent.is_empty() { at } else { (at.0 + length * contact.fx, at.1 + length * contact.fy) };
+            arrow(end, [contact.fx, contact.fy], length, scale)
+        };
+        judged().flat_map(|judged| &judged.contacts).map(one).collect()
+    };
+    let around = |arrows: &[[Curve; 2]]| {
+        let points = || all().chain(arrows.iter().flatten().flatten().copied());
+        let (x, y) = (span(points().map(|point| point.0), 0.08), span(points().map(|point| point.1), 0.08));
+        PlaneWindow::as_wide_as(PAGE, &x, &y, HEIGHT)
+    };
+    // arrows have a length in pixels, and a wider window has larger ones
+    let (mut window, mut height) = around(&[]);
+    for _ in 0..WIDER {
+        (window, height) = around(&arrows(window.scale));
+    }
     svg((PAGE, HEAD + height), |root| {
         let (head, area) = root.split_vertically(HEAD);
         let shown = if every > 1 { format!("; one frame of {every} is drawn") } else { String::new() };
         let (name, unit) = force_unit(found);
-        let arrows = if judged().all(|judged| judged.contacts.is_empty()) {
+        let said = if judged().all(|judged| judged.contacts.is_empty()) {
             "no force is found".to_owned()
         } else {
             let from = if extent.is_empty() { "arrows" } else { "arrows from the contacts" };
             format!("{from}: forces on the rod, the longest {:.2} {name}", largest / unit)
         };
         let pole = if extent.is_empty() { "" } else { "; black: the pole" };
-        let notes = [format!("dots: points; lines: the rod; {arrows}{pole}"), format!("{WITHOUT}{shown}")];
+        let notes = [format!("dots: points; lines: the rod; {said}{pole}"), format!("{WITHOUT}{shown}")];
         title(&head, &format!("{}: the rod and the forces on it", found.name), &notes)?;
         let chart = window.chart(&area, (12, 8))?;
         chart.draw_series(rods.iter().map(|rod| {
@@ -69,14 +89,8 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
         for line in rim(CROSS * window.scale) {
             chart.draw_series([Element::line(line, INK.stroke_width(LINE / 2))])?;
         }
-        let length = window.scale * ARROW / largest;
-        for contact in judged().flat_map(|judged| &judged.contacts) {
-            let at = (1e3 * contact.x, 1e3 * contact.y);
-            // an arrow that ends at the contact would lie in the pole
-            let end = if extent.is_empty() { at } else { (at.0 + length * contact.fx, at.1 + length * contact.fy) };
-            for line in arrow(end, [contact.fx, contact.fy], length, window.scale) {
-                chart.draw_series([Element::line(line, FIRST.stroke_width(LINE / 2))])?;
-            }
+        for line in arrows(window.scale).into_iter().flatten() {
+            chart.draw_series([Element::line(line, FIRST.stroke_width(LINE / 2))])?;
         }
         Ok(())
     })
@@ -140,7 +154,7 @@ pub(crate) fn over_frames(found: &FilmForces) -> Result<String, FigureError> {
     let (unit, force) = force_unit(found);
     let moment = if is_known { 1e-6 } else { found.rod.rod.units().moment };
     let first = format!("force in {unit}");
-    let names = [first.as_str(), "s in mm", if is_known { "m_{0z} in µN m" } else { "m_{0z} in EI/L" }];
+    let names = [first.as_str(), "arc length in mm", if is_known { "m_{0z} in µN m" } else { "m_{0z} in EI/L" }];
     type Quantity = fn(&FrameForces) -> Option<(f64, f64)>;
     let quantities: [(Quantity, f64); 3] = [
         (|judged| judged.contacts.first().map(|contact| (contact.force, contact.sigma_force)), force),

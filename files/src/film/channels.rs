@@ -70,8 +70,8 @@ pub(super) fn channels(mut table: Numbers, rod: &FilmedRod, mounting: &Mounting)
         return Err(FilmError::Missing {
             file: table.file.clone(),
             missing: "of a measured number".into(),
-            found: table.names().join(", "),
-            expected: EXPECTED,
+            found: table.found(),
+            expected: table.expected(EXPECTED),
         });
     }
     let loads = named.iter().filter(|(_, quantity, _)| quantity.is_load());

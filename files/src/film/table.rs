@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 /// Most faults that are told.
 const MOST_FAULTS: usize = 5;
 
+/// Most names of columns that are told.
+const MOST_NAMES: usize = 20;
+
 /// Up to here every whole number is a float.
 const MOST_WHOLE: f64 = 9e15;
 
@@ -84,9 +87,35 @@ impl Numbers {
         self.column(name).ok_or_else(|| FilmError::Missing {
             file: self.file.clone(),
             missing: name.to_owned(),
-            found: self.names.join(", "),
-            expected,
+            found: self.found(),
+            expected: self.expected(expected),
         })
+    }
+
+    /// The names, each once, and not more than a person reads.
+    pub fn found(&self) -> String {
+        let mut names: Vec<&str> = Vec::new();
+        for name in &self.names {
+            if !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+        let more = names.len().saturating_sub(MOST_NAMES);
+        let listed = names.iter().take(MOST_NAMES).copied().collect::<Vec<_>>().join(", ");
+        if more > 0 { format!("{listed} and {more} more") } else { listed }
+    }
+
+    /// What is expected of the table, or how the file of a tracker becomes one.
+    pub fn expected(&self, expected: &'static str) -> &'static str {
+        match self.names.first().map(String::as_str) {
+            Some("scorer") => {
+                "a table of points: this is a file of DeepLabCut, which vibrissa.tracking.read_deeplabcut in Python converts"
+            }
+            Some("track") if self.column("frame_idx").is_some() => {
+                "a table of points: this is a file of SLEAP, which vibrissa.tracking.read_sleap in Python converts"
+            }
+            _ => expected,
+        }
     }
 
     /// The number in a cell; none in an empty one, and where it is no number, which is a fault.

@@ -3,11 +3,12 @@
 //! The work of the clamp is the change of the elastic energy (see `agreement`). With the clock of the stage shifted by a delay, the work is
 //! done at other times. It then differs from the change of the energy wherever the clamp starts, stops, turns back or changes its speed while
 //! the rod is in contact. Along a straight line at constant speed the work does not depend on the delay: the object is shifted, and no
-//! contradiction remains.
+//! contradiction remains, but that reactions may not change while the clamp stands (see `standing`).
 
 use super::agreement::{LAG, energy, in_contact, some_rod, work_between};
 use super::frame::{WORK, averages};
 use super::physics::InFrame;
+use super::standing::Standing;
 use vibrissa::rod::Reactions;
 use vibrissa::{Pose, Rod, Sample};
 
@@ -24,7 +25,7 @@ const COARSE: usize = 400;
 /// The same where the clamp turns, and each delay needs all energies anew.
 const COARSE_TURNING: usize = 120;
 /// Standard deviations beyond which a reaction has changed.
-const SIGMAS: f64 = 6.0;
+pub(super) const SIGMAS: f64 = 6.0;
 
 /// The delays of the stage's clock that agree with the physics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +36,8 @@ pub(super) struct DelayFound {
     pub interval: [f64; 2],
     /// Whether these are bounds by the physics; otherwise the interval ends where the two files have half of the shorter one in common.
     pub is_bounded: [bool; 2],
+    /// Width of the interval by work and energy alone, s.
+    pub width_by_work: f64,
     /// Concordance of work and energy.
     pub concordance: f64,
 }
@@ -47,6 +50,11 @@ impl StageLog {
     /// Of rows in the order of time; none with fewer than two.
     pub fn new(rows: Vec<(f64, Pose)>) -> Option<Self> {
         (rows.len() > 1 && rows.windows(2).all(|pair| pair[0].0 < pair[1].0)).then_some(Self(rows))
+    }
+
+    /// Times and poses in the order of time.
+    pub fn rows(&self) -> &[(f64, Pose)] {
+        &self.0
     }
 
     /// First and last time, s.
@@ -120,7 +128,7 @@ pub(super) fn changes(sensed: &[Timed]) -> Option<[f64; 2]> {
 }
 
 /// Averages whose x is the time, and their noise.
-fn timed_averages(sensed: &[Timed]) -> Option<(Vec<Sample>, [f64; 3])> {
+pub(super) fn timed_averages(sensed: &[Timed]) -> Option<(Vec<Sample>, [f64; 3])> {
     let timed = |(t, reactions): &Timed| Sample::new(Pose { x: *t, y: 0.0, phi: 0.0 }, *reactions);
     let samples: Vec<Sample> = sensed.iter().map(timed).collect();
     averages(&samples).map(|(averages, noise, _)| (averages, noise))
@@ -136,6 +144,7 @@ pub(super) fn range(sensor: [f64; 2], stage: [f64; 2]) -> [f64; 2] {
 pub(super) fn delay(sensed: &[Timed], stage: &StageLog, frame: &InFrame, rod: Option<&Rod>) -> Option<DelayFound> {
     let (averages, noise) = timed_averages(sensed)?;
     let [least, most] = range([sensed.first()?.0, sensed.last()?.0], stage.span());
+    let standing = Standing::new(sensed, stage);
     let stage = stage.in_frame(frame);
     let samples: Vec<Sample> =
         averages.iter().map(|sample| Sample { reactions: frame.reactions(sample.reactions), ..*sample }).collect();
@@ -148,7 +157,8 @@ pub(super) fn delay(sensed: &[Timed], stage: &StageLog, frame: &InFrame, rod: Op
             (delay, search.misfit(delay).sum)
         })
         .collect();
-    let mut best = coarse.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let may_be = |delay: f64| standing.as_ref().is_none_or(|standing| standing.contradiction(delay).is_none());
+    let mut best = coarse.iter().copied().filter(|one| may_be(one.0)).min_by(|a, b| a.1.total_cmp(&b.1))?;
     // golden sections would need one minimum; thirds of the interval around the best are as good as the averages
     let mut around = step;
     for _ in 0..6 {
@@ -156,7 +166,7 @@ pub(super) fn delay(sensed: &[Timed], stage: &StageLog, frame: &InFrame, rod: Op
         for k in [-3, -2, -1, 1, 2, 3] {
             let delay = (center + f64::from(k) * width / 3.0).clamp(least, most);
             let sum = search.misfit(delay).sum;
-            if sum < best.1 {
+            if sum < best.1 && may_be(delay) {
                 best = (delay, sum);
             }
         }
@@ -169,14 +179,18 @@ pub(super) fn delay(sensed: &[Timed], stage: &StageLog, frame: &InFrame, rod: Op
     // residuals of neighbouring steps share averages
     let count = search.steps() as f64 / LAG as f64;
     let floor = RELATIVE.powi(2) * found.changes;
-    let is_plausible = |sum: f64| 0.5 * count * ((sum + floor) / (found.sum + floor)).ln() <= DECREASE;
-    let first = coarse.iter().position(|one| is_plausible(one.1));
-    let last = coarse.iter().rposition(|one| is_plausible(one.1));
+    let by_work = |sum: f64| 0.5 * count * ((sum + floor) / (found.sum + floor)).ln() <= DECREASE;
+    let is_plausible = |delay: f64, sum: f64| by_work(sum) && may_be(delay);
+    let fits_work = |one: &(f64, f64)| by_work(one.1);
+    let ends = coarse.iter().position(fits_work).zip(coarse.iter().rposition(fits_work));
+    let width_by_work = ends.map_or(0.0, |(first, last)| coarse[last].0 - coarse[first].0);
+    let first = coarse.iter().position(|one| is_plausible(one.0, one.1));
+    let last = coarse.iter().rposition(|one| is_plausible(one.0, one.1));
     let end = |inside: f64, outside: f64| {
         let (mut inside, mut outside) = (inside, outside);
         for _ in 0..16 {
             let middle = 0.5 * (inside + outside);
-            if is_plausible(search.misfit(middle).sum) { inside = middle } else { outside = middle }
+            if is_plausible(middle, search.misfit(middle).sum) { inside = middle } else { outside = middle }
         }
         0.5 * (inside + outside)
     };
@@ -187,7 +201,7 @@ pub(super) fn delay(sensed: &[Timed], stage: &StageLog, frame: &InFrame, rod: Op
         if is_bounded[0] { end(low, low - step) } else { least },
         if is_bounded[1] { end(high, high + step) } else { most },
     ];
-    Some(DelayFound { best: best.0, interval, is_bounded, concordance: found.concordance })
+    Some(DelayFound { best: best.0, interval, is_bounded, width_by_work, concordance: found.concordance })
 }
 
 /// What work and energy are compared with.

@@ -11,7 +11,7 @@ use super::rows::rows;
 use super::shell_word::quoted;
 use super::tracked::{Tracked, tracked};
 use super::unnamed::{behaviour, behaviour_text, mark_open, suppose, with_supposed};
-use super::values::{channel, poses};
+use super::values::{channel, of_scan, poses};
 use crate::ReadOptions;
 use std::path::{Path, PathBuf};
 use vibrissa::hw::recording::{
@@ -19,6 +19,11 @@ use vibrissa::hw::recording::{
 };
 use vibrissa::hw::{Dimension, Unit};
 use vibrissa::reconstruct::noise_estimate::estimate;
+
+/// Fewest rows of a recording: fewer say nothing of axes, signs and noise.
+pub(super) const FEWEST: usize = 16;
+/// Fewest rows of a stage: the ends of its motion.
+const FEWEST_POSES: usize = 2;
 
 /// What a file is for.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,7 +128,8 @@ impl Look {
         if let Some(path) = poses(&table, &guess).and_then(|poses| motion(&poses)) {
             self.report.fact(MOTION, path);
         }
-        self.report.columns = guess.columns.iter().map(|column| described(&table, column)).collect();
+        let of_scan = of_scan(&table, &guess);
+        self.report.columns = guess.columns.iter().map(|column| described(&table, &of_scan, column)).collect();
         if guess.columns.iter().any(|column| column.role.is_none() || column.meaning.sureness == Sureness::Open) {
             let times = channel(&table, &guess, Role::Time);
             for (described, column) in self.report.columns.iter_mut().zip(&guess.columns) {
@@ -135,6 +141,12 @@ impl Look {
             of_frames(&mut self.report, &guess);
         }
         self.propose(&table, &guess, read);
+        let needs_rows = matches!(self.content, Content::Reactions | Content::Wrench | Content::Raw | Content::Stage);
+        let fewest = if self.content == Content::Stage { FEWEST_POSES } else { FEWEST };
+        if needs_rows && table.len() < fewest {
+            let expected = format!("at least {fewest} rows of numbers below the names");
+            self.report.prevents(table.header_line(), "rows", table.len().to_string(), expected);
+        }
         if self.content == Content::Other {
             let found: Vec<&str> = table.columns().iter().map(|column| column.heading.as_str()).take(20).collect();
             let expected =
@@ -159,9 +171,12 @@ impl Look {
                 let why =
                     if column.meaning.why.is_empty() { String::new() } else { format!(" {}", column.meaning.why) };
                 let text = format!("is `{name}` {role}?{why}");
-                self.report.questions.push(Question { text, answers: vec![format!("--column {role}={name}")] });
+                self.report
+                    .questions
+                    .push(Question { text, answers: vec![format!("--column {}", quoted(&format!("{role}={name}")))] });
             }
-            let Some(dimension) = role.dimension() else { continue };
+            // no recording needs a temperature
+            let Some(dimension) = role.dimension().filter(|of| *of != Dimension::Temperature) else { continue };
             match column.unit {
                 Some(unit) if !column.is_unit_known && !is_given(&name) => {
                     self.proposal.set_unit(&name, unit.to_owned())
@@ -298,7 +313,6 @@ fn ask_unit(column: &ColumnGuess, name: &str, dimension: Dimension) -> Question 
         Dimension::Length => &["m", "mm", "cm", "in"],
         Dimension::Angle => &["rad", "deg"],
         Dimension::Time => &["s", "ms"],
-        Dimension::Temperature => &["degC"],
         // no column of a recording is measured in the others
         _ => &[],
     };
@@ -332,12 +346,14 @@ fn of_frames(file: &mut InspectedFile, guess: &TableGuess) {
     }
 }
 
-fn described(table: &Table, column: &ColumnGuess) -> InspectedColumn {
+fn described(table: &Table, of_scan: &[bool], column: &ColumnGuess) -> InspectedColumn {
     let values = &column.values;
-    let has_numbers = values.numbers > 0;
+    let rows = table.rows().zip(of_scan).filter(|(_, is_of_scan)| **is_of_scan);
+    let numbers: Vec<f64> = rows.filter_map(|(row, _)| row.number(column.column).ok()).collect();
+    let has_numbers = !numbers.is_empty();
+    let (least, most) = numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
     let is_load = matches!(column.quantity, Some(Quantity::Force | Quantity::Torque | Quantity::Raw));
     let noise = (is_load && values.numbers > 8).then(|| {
-        let numbers: Vec<f64> = table.rows().filter_map(|row| row.number(column.column).ok()).collect();
         let count: Vec<f64> = (0..numbers.len()).map(|k| k as f64).collect();
         estimate(&count, &numbers).sigma
     });
@@ -350,8 +366,8 @@ fn described(table: &Table, column: &ColumnGuess) -> InspectedColumn {
         unit: unit.map(|unit| if column.is_turned { format!("-{unit}") } else { unit }),
         unit_certainty: certainty(column.unit_basis.sureness),
         unit_why: column.unit_basis.why.clone(),
-        least: has_numbers.then_some(values.least),
-        most: has_numbers.then_some(values.most),
+        least: has_numbers.then_some(least),
+        most: has_numbers.then_some(most),
         noise,
         behaviour: None,
     }

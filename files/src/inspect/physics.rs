@@ -7,6 +7,7 @@ use super::motion::{MOTION, motion};
 use super::proposal::Proposal;
 use super::report::{Certainty, InspectedFile, Question};
 use super::shell_word::quoted;
+use std::f64::consts::TAU;
 use vibrissa::hw::Unit;
 use vibrissa::hw::recording::Role;
 use vibrissa::rod::Reactions;
@@ -14,6 +15,12 @@ use vibrissa::{Pose, Rod, Sample};
 
 /// Relative difference between the stiffness by the recording and that of the rod from which on it is reported.
 const STIFFNESS: f64 = 0.03;
+
+/// Logarithm of the prior probability that x and y of the clamp are exchanged.
+const EXCHANGED: f64 = -4.0;
+
+/// Begin of the sentence on columns that are loads.
+const LOADS: &str = "the columns are loads on the sensor, the opposite of reactions on the rod:";
 
 /// Units that files have, of lengths, angles, forces and moments, and the logarithms of their prior probabilities.
 const UNITS: [&[(&str, f64)]; DIMENSIONS] = [
@@ -26,6 +33,29 @@ const UNITS: [&[(&str, f64)]; DIMENSIONS] = [
 /// reactions along the axes of the scene, and where they have not.
 const OWN_NAMES: [f64; 3] = [-2.3, -2.0, -5.0];
 const ANY_NAMES: [f64; 3] = [0.0, -1.0, -2.0];
+
+/// What the reactions are of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Source {
+    /// Columns with the names of reactions along the axes of the scene, or given as such.
+    OwnNames,
+    /// Other columns beside poses.
+    OtherNames,
+    /// A sensor whose mounting states axes and sense.
+    Setup,
+    /// A sensor of unknown mounting: the columns are the opposite of what it measures.
+    Sensor,
+}
+
+impl Source {
+    /// Logarithms of the prior probabilities of loads, turns and mirrors.
+    fn frames(self) -> [f64; 3] {
+        match self {
+            Self::OwnNames | Self::Setup => OWN_NAMES,
+            Self::OtherNames | Self::Sensor => ANY_NAMES,
+        }
+    }
+}
 
 /// What says the unit of a column.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -66,7 +96,7 @@ impl Measured {
 }
 
 /// The units that columns of one dimension may have.
-fn candidates(columns: &[Measured; 6], dimension: usize) -> Vec<Candidate> {
+fn candidates(columns: &[Measured; 6], samples: &[Sample], dimension: usize) -> Vec<Candidate> {
     let of = || columns.iter().filter(|column| column.dimension() == dimension);
     let says = of().map(|column| column.says).fold(Says::Nothing, |a, b| if b > a { b } else { a });
     let now = of().find(|column| column.says == says).and_then(|column| column.unit);
@@ -83,7 +113,10 @@ fn candidates(columns: &[Measured; 6], dimension: usize) -> Vec<Candidate> {
     let first = Candidate { unit: now.unwrap_or(known), factor: 1.0, prior: 0.0 };
     let others = UNITS[dimension].iter().filter(|(unit, _)| (one(unit) / one(known) - 1.0).abs() > 1e-9);
     let others = others.map(|(unit, prior)| Candidate { unit, factor: one(unit) / one(known), prior: prior + less });
-    std::iter::once(first).chain(others.filter(|other| other.prior.is_finite())).collect()
+    // a clamp does not turn further than once
+    let angle = samples.iter().map(|sample| sample.pose.phi.abs()).fold(0.0, f64::max);
+    let may_be = |other: &Candidate| other.prior.is_finite() && (dimension != 1 || other.factor * angle <= 1.01 * TAU);
+    std::iter::once(first).chain(others.filter(may_be)).collect()
 }
 
 /// The best hypothesis, decided or not, as a search for the delay of the stage's clock needs it.
@@ -95,10 +128,9 @@ pub(super) struct InFrame {
 
 impl InFrame {
     /// Of samples; none where too few are in contact, or no hypothesis explains them.
-    pub fn of(samples: &[Sample], columns: &[Measured; 6], is_own: bool, rod: Option<&Rod>) -> Option<Self> {
-        let units = [0, 1, 2, 3].map(|dimension| candidates(columns, dimension));
-        let frames = if is_own { OWN_NAMES } else { ANY_NAMES };
-        let found = verdict(samples, &Before { rod, units: units.clone(), frames })?;
+    pub fn of(samples: &[Sample], columns: &[Measured; 6], source: Source, rod: Option<&Rod>) -> Option<Self> {
+        let units = [0, 1, 2, 3].map(|dimension| candidates(columns, samples, dimension));
+        let found = verdict(samples, &Before { rod, units: units.clone(), frames: source.frames() })?;
         if !found.best.fits() {
             return None;
         }
@@ -168,14 +200,16 @@ pub(super) fn physics(
     file: &mut InspectedFile,
     samples: &[Sample],
     columns: &[Measured; 6],
-    is_own: bool,
+    source: Source,
     rod: Option<&Rod>,
 ) -> Option<Preferred> {
-    let units = [0, 1, 2, 3].map(|dimension| candidates(columns, dimension));
-    let frames = if is_own { OWN_NAMES } else { ANY_NAMES };
+    let units = [0, 1, 2, 3].map(|dimension| candidates(columns, samples, dimension));
+    let frames = source.frames();
+    let is_own = frames == OWN_NAMES;
     let is_given = columns[3..].iter().all(|column| column.says == Says::User);
     let names = [3, 4, 5].map(|k: usize| columns[k].name.as_str());
-    let Some(found) = verdict(samples, &Before { rod, units: units.clone(), frames }) else {
+    let before = Before { rod, units: units.clone(), frames };
+    let Some(found) = verdict(samples, &before) else {
         file.fact(
             "frame",
             "not checked: too few samples in contact beyond the noise, or no line of tangential contacts",
@@ -195,7 +229,7 @@ pub(super) fn physics(
         );
         file.fact("offset", text);
     }
-    report(file, &found, columns, rod.is_some());
+    report(file, &found, columns, source, rod.is_some());
     for (column, of) in columns.iter().zip([|pose: &Pose| pose.x, |pose: &Pose| pose.y]) {
         let first = samples.first().map_or(0.0, |sample| of(&sample.pose));
         if first != 0.0 && column.says < Says::Name && samples.iter().all(|sample| of(&sample.pose) == first) {
@@ -210,6 +244,7 @@ pub(super) fn physics(
     if !best.fits() {
         if !is_given {
             misfit(file, best, columns);
+            exchange(file, samples, &before, best, columns);
         }
         return None;
     }
@@ -223,6 +258,7 @@ pub(super) fn physics(
     if !found.is_decided {
         if !is_given {
             choose(file, &found, columns, &units);
+            exchange(file, samples, &before, best, columns);
         }
         return None;
     }
@@ -254,6 +290,7 @@ pub(super) fn physics(
     }
     if best.prior < UNLIKELY && file.questions.is_empty() && !is_given {
         choose(file, &found, columns, &units);
+        exchange(file, samples, &before, best, columns);
         return None;
     }
     if let Some(rod) = rod
@@ -290,7 +327,7 @@ fn agreement(rated: &Rated, columns: &[Measured; 6]) -> String {
     )
 }
 
-fn report(file: &mut InspectedFile, found: &Verdict, columns: &[Measured; 6], has_rod: bool) {
+fn report(file: &mut InspectedFile, found: &Verdict, columns: &[Measured; 6], source: Source, has_rod: bool) {
     let best = &found.best;
     let of = if has_rod { "" } else { ", with stiffness and length as the recording suggests" };
     let next = found.others.first().map_or_else(String::new, |next| format!("; next {}", agreement(next, columns)));
@@ -300,8 +337,10 @@ fn report(file: &mut InspectedFile, found: &Verdict, columns: &[Measured; 6], ha
     let begin = match (best.fits(), found.is_decided) {
         (false, _) => "no axes, signs and units agree with the physics; the best",
         (true, false) => "the physics does not determine axes and signs: it fits",
+        (true, true) if is_as_is && source == Source::Sensor => LOADS,
+        (true, true) if is_load && source == Source::Sensor => "the columns are reactions on the rod:",
         (true, true) if is_as_is => "the physics confirms",
-        (true, true) if is_load => "the columns are loads on the sensor, the opposite of reactions on the rod:",
+        (true, true) if is_load => LOADS,
         (true, true) => "the physics prefers",
     };
     file.fact("frame", format!("{begin} {}{next}{of}", agreement(best, columns)));
@@ -374,6 +413,32 @@ fn choose(file: &mut InspectedFile, found: &Verdict, columns: &[Measured; 6], un
     file.questions.push(Question { text, answers: answers.collect() });
 }
 
+/// Offers the exchange of x and y of the clamp, as the first answer to the last question, where that explains the samples better than the best
+/// hypothesis, its smaller prior probability included.
+fn exchange(file: &mut InspectedFile, samples: &[Sample], before: &Before<'_>, best: &Rated, columns: &[Measured; 6]) {
+    let exchanged = |sample: &Sample| {
+        let Pose { x, y, phi } = sample.pose;
+        Sample { pose: Pose { x: y, y: x, phi }, ..*sample }
+    };
+    let samples: Vec<Sample> = samples.iter().map(exchanged).collect();
+    let Some(found) = verdict(&samples, before) else { return };
+    let Hypothesis { frame, reversed, .. } = found.best.hypothesis;
+    // two mistakes at once explain much
+    let is_alone = (frame.is_as_is() || frame.is_load()) && reversed == [false; 3];
+    if !is_alone || !found.best.fits() || found.best.score() + EXCHANGED <= best.score() {
+        return;
+    }
+    let mut swapped = columns.clone();
+    let [x, y] = [0, 1].map(|k: usize| columns[k].name.clone());
+    (swapped[0].name, swapped[1].name) = (y.clone(), x.clone());
+    let Some(question) = file.questions.last_mut() else { return };
+    let mut words =
+        vec![format!("--column {}", quoted(&format!("x0={y}"))), format!("--column {}", quoted(&format!("y0={x}")))];
+    words.extend(options(&swapped, &found.best.hypothesis, &before.units));
+    let text = format!("`{x}` and `{y}` exchanged, {}: {}", agreement(&found.best, &swapped), words.join(" "));
+    question.answers.insert(0, text);
+}
+
 /// Options for axes and signs of a hypothesis, and for the units that it changes.
 fn options(columns: &[Measured; 6], hypothesis: &Hypothesis, units: &[Vec<Candidate>; DIMENSIONS]) -> Vec<String> {
     let mut options = Vec::new();
@@ -425,7 +490,10 @@ fn other_rod([x, y, z]: [&str; 3], ratio: f64, rod: &Rod) -> Question {
             "the reactions give {ratio:.3e} times the bending stiffness of the rod ({stiffness:.4e} N m^2): is it another rod, or is a unit wrong? \
              Forces in mN taken for N give 1e-3, moments in N mm taken for N m give 1e6"
         ),
-        answers: vec![format!("--unit {x}=... --unit {y}=... --unit {z}=... (as they are, if the rod is another one)")],
+        answers: vec![format!(
+            "{} (as they are, if the rod is another one)",
+            [x, y, z].map(|name| format!("--unit {}", quoted(&format!("{name}=...")))).join(" ")
+        )],
     }
 }
 
@@ -434,8 +502,12 @@ fn ask(file: &mut InspectedFile, [x, y, z]: [&str; 3]) {
     file.questions.push(Question {
         text: format!("are `{x}`, `{y}`, `{z}` reactions of the clamp on the rod, along the axes of the poses, or loads on the sensor?"),
         answers: vec![
-            format!("reactions: --column f0x={x}"),
-            format!("loads: --column f0x={x} --unit {x}=-N (and so on: a minus turns the sign)"),
+            format!("reactions: --column {}", quoted(&format!("f0x={x}"))),
+            format!(
+                "loads: --column {} --unit {} (and so on: a minus turns the sign)",
+                quoted(&format!("f0x={x}")),
+                quoted(&format!("{x}=-N"))
+            ),
         ],
     });
 }

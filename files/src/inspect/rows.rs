@@ -3,13 +3,15 @@
 use super::report::InspectedFile;
 use super::values::factor;
 use crate::table::counted;
-use vibrissa::hw::recording::{Cell, Quantity, Role, Row, RowProblem, Table, TableGuess};
+use vibrissa::hw::recording::{Cell, Quantity, Role, Row, RowProblem, Table, TableGuess, TableKind};
 
 /// Steps of the time beyond this many usual ones are gaps.
 const GAP: f64 = 1.5;
 
 /// With more than one step of time in so many against the others the rows are in no order.
 const SHUFFLED: usize = 50;
+/// So many rows one after the other, earlier than one before them and growing, have the times of a clock that began anew.
+const ANEW: usize = 8;
 /// A mark of missing values is so many ranges of the other values away from them.
 const AWAY: f64 = 3.0;
 /// Rows in which a reading stays the same, or at its limit, at least: relative to all rows, and as a number.
@@ -92,12 +94,16 @@ fn times(file: &mut InspectedFile, table: &Table, guess: &TableGuess) {
     }
     let (mut gaps, mut longest, mut at) = (0, 0.0, 0);
     let (mut late, mut late_at) = (0, None);
-    let mut last: Option<f64> = None;
+    let (mut last, mut latest): (Option<f64>, f64) = (None, f64::NEG_INFINITY);
+    // rows one after the other that are earlier than one before them, and grow
+    let (mut anew, mut most_anew) = (0, 0);
     for row in table.rows() {
         let Cell::Number(value) = row.cell(column.column) else { continue };
         let time = factor * value;
         if let Some(before) = last {
-            if time <= before {
+            anew = if time <= latest { anew + usize::from(time > before) } else { 0 };
+            most_anew = most_anew.max(anew);
+            if time <= latest {
                 late += 1;
                 late_at = late_at.or(Some((row.line(), value)));
             } else if time - before > GAP * step {
@@ -108,13 +114,18 @@ fn times(file: &mut InspectedFile, table: &Table, guess: &TableGuess) {
             }
         }
         last = Some(time);
+        latest = latest.max(time);
     }
     if gaps > 0 {
         file.fact("gaps", format!("{}, the longest of {longest:.4} s before line {at}", counted(gaps, "gap")));
     }
     if let Some((line, value)) = late_at {
         let value = format!("{value} in the first of {}", counted(late, "row"));
-        if SHUFFLED * column.values.rises.min(column.values.falls) > column.values.numbers {
+        let is_sensor = matches!(guess.kind, TableKind::Wrench | TableKind::Raw | TableKind::Stage);
+        if most_anew >= ANEW && is_sensor {
+            let expected = "one clock: the rows from this line on have other times; save them in a file of their own";
+            file.prevents(line, name.clone(), value, expected);
+        } else if SHUFFLED * column.values.rises.min(column.values.falls) > column.values.numbers {
             file.prevents(line, name.clone(), value, "rows in the order of time: sort them");
         } else {
             file.fault(line, name.clone(), value, "a time later than that of the row before");

@@ -51,9 +51,13 @@ impl SetupText {
         }
         let frame = self.frame.unwrap_or(ReactionFrame { swapped: false, turned: [false; 3] });
         let (axes, sense) = mounting(frame);
+        let measured = match sense {
+            "load" => "it measures what the rod does to it; or reaction: what it does to the rod",
+            _ => "it measures what it does to the rod; or load: what the rod does to it",
+        };
         let _ = write!(
             text,
-            "\n[mounting]\naxes = [\"{}\", \"{}\", \"{}\"] # of the scene, along which x, y, z of the sensor lie{}\nsense = \"{sense}\" # it measures what the rod does to it; or reaction\nlever = [0.0, 0.0, 0.0] # m, from the sensor's origin to the clamp, in its axes: measure it\n",
+            "\n[mounting]\naxes = [\"{}\", \"{}\", \"{}\"] # of the scene, along which x, y, z of the sensor lie{}\nsense = \"{sense}\" # {measured}\nlever = [0.0, 0.0, 0.0] # m, from the sensor's origin to the clamp, in its axes: measure it\n",
             axes[0],
             axes[1],
             axes[2],

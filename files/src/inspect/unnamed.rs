@@ -71,7 +71,7 @@ pub(super) fn behaviour(table: &Table, column: &ColumnGuess) -> Option<Behaviour
 
 /// In words, with the times of the rows where these are known, s.
 pub(super) fn behaviour_text(behaviour: &Behaviour, times: Option<&[f64]>) -> String {
-    let time = |row: usize| times.and_then(|times| times.get(row));
+    let time = |row: usize| times.and_then(|times| times.get(row)).filter(|time| time.is_finite());
     match behaviour {
         Behaviour::Constant => "constant".to_owned(),
         Behaviour::Linear(slope) => {

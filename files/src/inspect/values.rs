@@ -1,7 +1,7 @@
 //! The numbers of a table in SI units, by the guesses of its columns.
 
 use vibrissa::hw::Unit;
-use vibrissa::hw::recording::{Cell, ColumnGuess, Role, Table, TableGuess};
+use vibrissa::hw::recording::{Cell, ColumnGuess, Role, Row, Table, TableGuess};
 use vibrissa::rod::Reactions;
 use vibrissa::{Pose, Sample};
 
@@ -11,12 +11,23 @@ pub(super) fn factor(column: &ColumnGuess) -> f64 {
     sign * column.unit.and_then(Unit::find).map_or(1.0, |unit| unit.factor)
 }
 
-/// The column of a role in SI units; none where there is no such column.
+/// The column of a role in SI units, NaN where a row has no number or is not of the scan; none where there is no such column.
 pub(super) fn channel(table: &Table, guess: &TableGuess, role: Role) -> Option<Vec<f64>> {
     let column = guess.of(role)?;
     let factor = factor(column);
-    let number = |cell| if let Cell::Number(value) = cell { factor * value } else { f64::NAN };
-    Some(table.rows().map(|row| number(row.cell(column.column))).collect())
+    let number = |(row, is_of_scan): (Row<'_>, bool)| match row.cell(column.column) {
+        Cell::Number(value) if is_of_scan => factor * value,
+        _ => f64::NAN,
+    };
+    Some(table.rows().zip(of_scan(table, guess)).map(number).collect())
+}
+
+/// Whether each row is of the scan: none is that the readers leave out for a text in a column that they read, as those of means below a table.
+pub(super) fn of_scan(table: &Table, guess: &TableGuess) -> Vec<bool> {
+    let read = |column: &&ColumnGuess| column.role.is_some_and(|role| role.dimension().is_some());
+    let columns: Vec<usize> = guess.columns.iter().filter(read).map(|column| column.column).collect();
+    let is_of_scan = |row: Row<'_>| columns.iter().all(|column| !matches!(row.cell(*column), Cell::Text(_)));
+    table.rows().map(is_of_scan).collect()
 }
 
 /// Poses of all rows that have one.

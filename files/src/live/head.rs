@@ -125,7 +125,10 @@ pub(super) fn head<'a>(
     *chain.wrenches().stage() = motion;
     let mut tare = "none".to_owned();
     if seconds > 0.0 {
-        let zero = zero(scan, &wrenches).map_err(|source| LiveError::Tare { seconds, source })?;
+        let window = tare_window(&wrenches, seconds);
+        let lasts = window.last().map_or(0.0, |wrench| wrench.t - start);
+        let seconds = seconds.max((1e3 * lasts).round() / 1e3);
+        let zero = zero(scan, window).map_err(|source| LiveError::Tare { seconds, source })?;
         let [fx, fy, fz, tx, ty, tz] = zero.wrench().components();
         tare = format!(
             "{fx:.4e} {fy:.4e} {fz:.4e} N, {tx:.4e} {ty:.4e} {tz:.4e} N m, the mean of {} samples",
@@ -172,6 +175,13 @@ fn timekeeper(scan: &LiveScan, sensor: &Sensor, first: &RawSample) -> Timekeeper
         None if first.device_time.is_some() => Timekeeper::device(WINDOW),
         None => Timekeeper::counted(None),
     }
+}
+
+/// The first samples, for so many seconds, or as many as a zero needs: the noise is estimated from more.
+fn tare_window(wrenches: &[WrenchSample], seconds: f64) -> &[WrenchSample] {
+    let start = wrenches.first().map_or(0.0, |wrench| wrench.t);
+    let within = wrenches.partition_point(|wrench| wrench.t - start <= seconds);
+    &wrenches[..within.max(TareWindow::FEWEST).min(wrenches.len())]
 }
 
 fn zero(scan: &LiveScan, wrenches: &[WrenchSample]) -> Result<Zero, TareError> {

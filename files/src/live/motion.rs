@@ -81,5 +81,8 @@ fn table(file: &Path, delay: f64, how: &ReadOptions) -> Result<StageTable, LiveE
             ))
         })
         .collect();
-    StageTable::new(rows?).map_err(|source| LiveError::StageTable { file: file.to_path_buf(), source })
+    let mut rows = rows?;
+    // a row that is there twice says nothing else
+    rows.dedup();
+    StageTable::new(rows).map_err(|source| LiveError::StageTable { file: file.to_path_buf(), source })
 }

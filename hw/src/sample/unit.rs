@@ -34,7 +34,7 @@ pub enum Dimension {
 }
 
 /// A unit of one of the accepted spellings: `N`, `mN`, `N m`, `N-mm`, `lbf in`, `mm`, `deg`, `ms` and more. Blanks, dots,
-/// hyphens and asterisks between the parts do not matter, capitals do: mN is not MN.
+/// hyphens, asterisks and crosses between the parts do not matter, capitals do: mN is not MN.
 ///
 /// ```
 /// use rod_hw::{Dimension, Unit};
@@ -83,9 +83,9 @@ const POUND: f64 = 4.448_221_615_260_5;
 const GRAVITY: f64 = 9.806_65;
 const INCH: f64 = 0.0254;
 
-const UNITS: [Row; 54] = [
-    ("N", &["Newton", "newton", "Newtons", "newtons"], Force, 1.0),
-    ("mN", &[], Force, 1e-3),
+const UNITS: [Row; 57] = [
+    ("N", &["Newton", "newton", "Newtons", "newtons", "Н"], Force, 1.0),
+    ("mN", &["мН"], Force, 1e-3),
     ("uN", &["µN", "μN"], Force, 1e-6),
     ("cN", &[], Force, 1e-2),
     ("kN", &[], Force, 1e3),
@@ -93,32 +93,35 @@ const UNITS: [Row; 54] = [
     ("klbf", &["klb"], Force, 1e3 * POUND),
     ("kgf", &["kg", "kp"], Force, GRAVITY),
     ("gf", &["g"], Force, 1e-3 * GRAVITY),
-    ("N m", &["Newton meter", "newton metre", "Newton meters"], Torque, 1.0),
-    ("mN m", &[], Torque, 1e-3),
-    ("N mm", &["Newton millimeter", "newton millimetre"], Torque, 1e-3),
+    ("N m", &["Newton meter", "newton metre", "Newton meters", "Н м"], Torque, 1.0),
+    ("mN m", &["мН м"], Torque, 1e-3),
+    ("N mm", &["Newton millimeter", "newton millimetre", "Н мм"], Torque, 1e-3),
     ("uN m", &["µN m", "μN m"], Torque, 1e-6),
     ("mN mm", &[], Torque, 1e-6),
-    ("N cm", &[], Torque, 1e-2),
+    ("N cm", &["Н см"], Torque, 1e-2),
     ("cN m", &[], Torque, 1e-2),
     ("kN m", &[], Torque, 1e3),
     ("lbf in", &["lb in", "in lb", "in lbf"], Torque, POUND * INCH),
     ("lbf ft", &["lb ft", "ft lb", "ft lbf"], Torque, POUND * 12.0 * INCH),
     ("kgf cm", &["kg cm"], Torque, 1e-2 * GRAVITY),
-    ("m", &["metre", "meter", "metres", "meters"], Length, 1.0),
-    ("mm", &["millimetre", "millimeter", "Millimeter"], Length, 1e-3),
+    ("gf cm", &["g cm"], Torque, 1e-5 * GRAVITY),
+    ("gf mm", &["g mm"], Torque, 1e-6 * GRAVITY),
+    ("m", &["metre", "meter", "metres", "meters", "м"], Length, 1.0),
+    ("mm", &["millimetre", "millimeter", "Millimeter", "мм"], Length, 1e-3),
     ("um", &["µm", "μm"], Length, 1e-6),
-    ("cm", &[], Length, 1e-2),
+    ("cm", &["см"], Length, 1e-2),
     ("in", &["inch"], Length, INCH),
     ("ft", &["foot", "feet"], Length, 0.3048),
-    ("rad", &["radian", "radians"], Angle, 1.0),
+    ("rad", &["radian", "radians", "рад"], Angle, 1.0),
     ("mrad", &[], Angle, 1e-3),
-    ("deg", &["°", "degree", "degrees", "Grad"], Angle, PI / 180.0),
-    ("s", &["sec", "second", "seconds", "Sek", "Sekunden"], Time, 1.0),
-    ("ms", &["msec", "millisecond", "milliseconds"], Time, 1e-3),
+    ("deg", &["°", "degree", "degrees", "Grad", "град"], Angle, PI / 180.0),
+    ("s", &["sec", "second", "seconds", "Sek", "Sekunden", "с"], Time, 1.0),
+    ("ms", &["msec", "millisecond", "milliseconds", "мс"], Time, 1e-3),
     ("us", &["µs", "μs", "usec"], Time, 1e-6),
     ("ns", &[], Time, 1e-9),
     ("min", &[], Time, 60.0),
     ("h", &[], Time, 3600.0),
+    ("day", &["days"], Time, 86_400.0),
     ("degC", &["°C", "C", "Celsius"], Temperature, 1.0),
     ("Pa", &["N/m2", "N/m^2", "N/m²"], Stress, 1.0),
     ("kPa", &[], Stress, 1e3),
@@ -181,7 +184,9 @@ fn parts(text: &str) -> impl Iterator<Item = (Option<char>, char, bool)> {
     let (mut before, mut is_apart) = (None, false);
     text.chars().filter_map(move |letter| {
         let is_sign = letter == '-' && before == Some('^');
-        if !is_sign && (letter.is_whitespace() || matches!(letter, '-' | '*' | '.' | '·' | '⋅' | '_')) {
+        if !is_sign
+            && (letter.is_whitespace() || matches!(letter, '-' | '*' | '.' | '·' | '⋅' | '×' | '∙' | '•' | '・' | '_'))
+        {
             is_apart = true;
             return None;
         }
@@ -290,6 +295,10 @@ mod tests {
             ("mm^ -1", "1/mm"),
             ("N mm ^ 2", "N mm^2"),
             ("µN·m", "uN m"),
+            ("N×mm", "N mm"),
+            ("Н·мм", "N mm"),
+            ("мм", "mm"),
+            ("gf mm", "gf mm"),
         ] {
             assert_eq!(Unit::find(text).map(|unit| unit.name), Some(name), "{text}");
         }

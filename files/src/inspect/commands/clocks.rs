@@ -4,9 +4,10 @@ use super::rod;
 use crate::inspect::InspectOptions;
 use crate::inspect::clock::{DelayFound, StageLog, Timed, changes, delay, joined, range};
 use crate::inspect::look::Look;
-use crate::inspect::physics::{InFrame, Measured};
+use crate::inspect::physics::{InFrame, Measured, Source};
 use crate::inspect::report::{InspectedFile, Question};
 use crate::inspect::shell_word::quoted;
+use crate::inspect::standing::{Contradiction, Standing};
 use crate::inspect::values::factor;
 use crate::{LiveScan, StageDelay};
 use std::path::Path;
@@ -14,11 +15,11 @@ use vibrissa::hw::recording::Role;
 
 /// How the question begins.
 pub(super) const CLOCKS: &str = "how are the clocks of the sensor and of the stage related?";
-/// Times beyond this, s, count from 1970, as those of operating systems and robots do: they are dates after 1973. The clocks of two computers may still
-/// differ, which the physics may show.
-const ABSOLUTE: f64 = 1e8;
-/// Shift of the object by an unknown delay, in lengths of the rod, that needs no question: it is about the systematic error of an ordinary laboratory.
-const SHIFT: f64 = 0.01;
+/// Shift of the object by any delay that fits, in lengths of the rod, that needs no question: half of it is about the systematic error of an ordinary
+/// laboratory. Times of two files that begin and end together, or count from 1970, are no reason to accept more: each may have a clock of its own.
+const SHIFT: f64 = 0.015;
+/// The same up to which a delay is proposed: the physics determines it, if not well.
+const PROPOSED: f64 = 0.1;
 /// Delays, evenly spaced, at which the frame is tried if it fits at none of these. A delay of a tenth of the motion leaves most of the work right.
 const ANYWHERE: usize = 16;
 /// Times to which the best delay is searched anew in the frame that it suggests.
@@ -60,18 +61,18 @@ impl Clocks {
         self.sensor[0] < self.stage[1] + delay && self.stage[0] + delay < self.sensor[1]
     }
 
-    /// Whether the times show one clock: both begin and end together, as far as their steps allow, or both count from 1970.
-    fn are_one(&self) -> bool {
+    /// Whether both begin and end together, as far as their steps allow: no proof of one clock, but no reason to doubt it either.
+    pub fn are_alike(&self) -> bool {
         // half a step more for rounding
         let near = |k: usize, step: f64| (self.sensor[k] - self.stage[k]).abs() <= step + 0.5 * self.short;
-        let is_absolute = self.sensor[0] > ABSOLUTE && self.stage[0] > ABSOLUTE;
-        near(0, 0.0) && near(1, self.step) || is_absolute && self.overlap()
+        near(0, 0.0) && near(1, self.step)
     }
 
     /// Asks where the times leave it open.
     pub fn ask_without_physics(&self, file: &mut InspectedFile, options: &InspectOptions) {
-        if !self.are_one() && stage_delay(options).is_none() {
-            self.ask(file, "The physics can be asked when the other questions are answered.", None);
+        // where there are common times the physics may answer it
+        if stage_delay(options).is_none() && !self.overlap() {
+            self.ask(file, "The physics can be asked when the other questions are answered.", None, &|_| false);
         }
     }
 
@@ -102,28 +103,39 @@ impl Clocks {
                 ),
             );
         }
+        let standing = Standing::new(&sensed, &log);
+        let is_refuted = |delay: f64| {
+            let found = standing.as_ref().and_then(|standing| standing.contradiction(delay));
+            found.is_some_and(|found| !is_outside(&found))
+        };
+        let contradiction =
+            standing.as_ref().filter(|_| self.overlap()).and_then(|standing| standing.contradiction(stated));
+        let contradicted = contradiction.map(|found| contradicted(&found, stated));
+        if let Some(text) = &contradicted {
+            file.fact("contradiction", text.clone());
+        }
+        let is_settled = self.stated.is_some() && contradiction.is_none_or(|found| is_outside(&found));
+        let said = |text: String| contradicted.iter().cloned().chain([text]).collect::<Vec<_>>().join(" ");
         let Some(found) = found else {
-            if self.stated.is_none() && !self.are_one() {
-                self.ask(
-                    file,
-                    "Work and elastic energy agree at no delay, so that the physics does not determine it.",
-                    None,
-                );
+            if !is_settled {
+                let text = "Work and elastic energy agree at no delay, so that the physics does not determine it.";
+                self.ask(file, &said(text.to_owned()), None, &is_refuted);
             }
             return stated;
         };
         let [least, most] = found.interval;
-        let said = sentence(&found, speed);
         let size = rod(options).map_or_else(|| way(&log), |rod| rod.rod.length());
         let farthest = (least - stated).abs().max((most - stated).abs());
-        let is_confirmed = speed * farthest <= SHIFT * size;
-        let is_contradicted = !(least - self.step..=most + self.step).contains(&stated);
-        file.fact("delay of the stage's clock", said.clone());
-        if is_confirmed || self.stated.is_some() || (self.are_one() && !is_contradicted) {
+        // half a step is the rounding of times
+        let is_within = (least - 0.5 * self.short..=most + 0.5 * self.short).contains(&stated);
+        let is_confirmed = is_within && speed * farthest <= SHIFT * size && contradicted.is_none();
+        let is_determined = found.is_bounded == [true; 2] && speed * found.width_by_work <= PROPOSED * size;
+        let text = sentence(&found, speed, is_determined);
+        file.fact("delay of the stage's clock", text.clone());
+        if is_confirmed || is_settled {
             return stated;
         }
-        let is_determined = found.is_bounded == [true; 2] && speed * (most - least) <= 0.1 * size;
-        self.ask(file, &said, is_determined.then_some(&found));
+        self.ask(file, &said(text), is_determined.then_some(&found), &is_refuted);
         if is_determined { found.best } else { stated }
     }
 
@@ -136,8 +148,8 @@ impl Clocks {
         options: &InspectOptions,
     ) -> Option<DelayFound> {
         let rod = rod(options).map(|rod| &rod.rod);
-        let is_own = options.setup.is_some();
-        let at = |delay: f64| InFrame::of(&joined(sensed, log, delay), columns, is_own, rod);
+        let source = if options.setup.is_some() { Source::Setup } else { Source::Sensor };
+        let at = |delay: f64| InFrame::of(&joined(sensed, log, delay), columns, source, rod);
         let mut starts: Vec<f64> = Vec::new();
         for delay in [self.stated.unwrap_or(0.0), self.sensor[0] - self.stage[0], self.sensor[1] - self.stage[1]] {
             if starts.iter().all(|known| (known - delay).abs() > self.step) {
@@ -163,7 +175,8 @@ impl Clocks {
         found
     }
 
-    fn ask(&self, file: &mut InspectedFile, said: &str, found: Option<&DelayFound>) {
+    /// Delays that the standing clamp refutes are no answers.
+    fn ask(&self, file: &mut InspectedFile, said: &str, found: Option<&DelayFound>, is_refuted: &dyn Fn(f64) -> bool) {
         let [first, last] = self.sensor;
         let [from, to] = self.stage;
         let text = format!(
@@ -172,7 +185,7 @@ impl Clocks {
         );
         let mut delays: Vec<(f64, String)> = Vec::new();
         let mut answer = |delay: f64, why: &str| {
-            if delays.iter().all(|known| (known.0 - delay).abs() > self.step) {
+            if !is_refuted(delay) && delays.iter().all(|known| (known.0 - delay).abs() > self.step) {
                 let value = format!("{} s", rounded(delay));
                 delays.push((delay, format!("--stage-delay {} ({why})", quoted(&value))));
             }
@@ -189,6 +202,11 @@ impl Clocks {
     }
 }
 
+/// Whether a change is before or after the log of the stage: a log that begins or ends within the motion is no clock that is wrong.
+fn is_outside(found: &Contradiction) -> bool {
+    found.stands.iter().any(|t| t.is_infinite())
+}
+
 /// Rounded to 0.1 ms.
 fn rounded(seconds: f64) -> f64 {
     let rounded = (1e4 * seconds).round() / 1e4;
@@ -201,15 +219,32 @@ fn way(log: &StageLog) -> f64 {
     log.motion().map_or(0.0, |motion| motion.1 * (to - from))
 }
 
-fn sentence(found: &DelayFound, speed: f64) -> String {
+/// A change of the reactions while the clamp stands, in words.
+fn contradicted(found: &Contradiction, delay: f64) -> String {
+    let Contradiction { t, stands: [from, to] } = *found;
+    let when = match (from.is_finite(), to.is_finite()) {
+        (false, _) => format!("before it starts at {to:.3} s"),
+        (true, false) => format!("after it arrives at {from:.3} s"),
+        (true, true) => format!("while it stands from {from:.3} to {to:.3} s"),
+    };
+    let delay = if delay == 0.0 { "With one clock".to_owned() } else { format!("With a delay of {delay:.4} s") };
+    format!("{delay} the reactions change at {t:.3} s although the clamp does not move, {when}.")
+}
+
+/// `is_determined` tells a delay that is known well enough to be proposed.
+fn sentence(found: &DelayFound, speed: f64, is_determined: bool) -> String {
     let [least, most] = found.interval;
     let shift = 1e3 * speed * (most - least);
     let range = format!("{least:.4} to {most:.4} s");
     let effect = format!("within this range the object is shifted by up to {shift:.2} mm");
     let by = format!("concordance of work and elastic energy {:+.2}", found.concordance);
     match found.is_bounded {
-        [true, true] => format!("The physics fits a delay of {:.4} s (95 %: {range}; {effect}; {by}).", found.best),
-        [false, false] => format!("The physics does not determine the delay: {range} fit ({effect}; {by})."),
+        [true, true] if is_determined => {
+            format!("The physics fits a delay of {:.4} s (95 %: {range}; {effect}; {by}).", found.best)
+        }
+        [true, true] | [false, false] => {
+            format!("The physics does not determine the delay: {range} fit ({effect}; {by}).")
+        }
         [false, true] => format!("The physics gives only an upper bound of the delay: {range} fit ({effect}; {by})."),
         [true, false] => format!("The physics gives only a lower bound of the delay: {range} fit ({effect}; {by})."),
     }

@@ -5,7 +5,7 @@ use super::{is_answered, rod, scan, start, tried};
 use crate::inspect::InspectOptions;
 use crate::inspect::clock::StageLog;
 use crate::inspect::look::{Content, Look};
-use crate::inspect::physics::{Measured, Says, physics};
+use crate::inspect::physics::{Measured, Says, Source, physics};
 use crate::inspect::proposal::{Proposal, name_of};
 use crate::inspect::report::{InspectedFile, Question, ReadCommand};
 use crate::inspect::setup_text::{Components, SetupText};
@@ -95,14 +95,15 @@ pub(super) fn sensor(
             {
                 columns[..3].iter_mut().for_each(|column| column.name = format!("stage:{}", column.name));
                 let asked = looks[k].report.questions.len();
-                let found = physics(&mut looks[k].report, &samples, &columns, false, rod(options).map(|rod| &rod.rod));
+                let found =
+                    physics(&mut looks[k].report, &samples, &columns, Source::Sensor, rod(options).map(|rod| &rod.rod));
                 if let Some(found) = found {
                     columns[..3].iter_mut().for_each(|column| column.name = column.name.replacen("stage:", "", 1));
                     let stage = &mut looks[stage];
                     found.apply(&mut stage.report, &mut stage.proposal, &columns, &samples, 0..3);
                     of_stage = Some(stage.proposal.clone());
                     setup.frame = Some(found.frame);
-                } else if is_asked {
+                } else if is_asked && clocks.as_ref().is_some_and(|clocks| !clocks.are_alike()) {
                     // wrong poses may be why no frame fits: the clocks first
                     looks[k].report.questions.truncate(asked);
                 } else {
@@ -113,6 +114,10 @@ pub(super) fn sensor(
         }
     } else if let Some(clocks) = &clocks {
         clocks.ask_without_physics(&mut looks[k].report, options);
+    }
+    if let Some(stage) = stage {
+        ask_speed(&mut looks[stage]);
+        reads &= is_answered(&looks[stage].report);
     }
     if options.setup.is_some() {
         setup = SetupText::default();
@@ -157,7 +162,36 @@ fn stage_log(stage: &Look) -> Option<StageLog> {
     let (t, x, y, phi) = (t?, x?, y?, phi?);
     let rows = (0..t.len()).map(|k| (t[k], Pose { x: x[k], y: y[k], phi: phi[k] }));
     let is_finite = |(t, pose): &(f64, Pose)| [*t, pose.x, pose.y, pose.phi].iter().all(|value| value.is_finite());
-    StageLog::new(rows.filter(is_finite).collect())
+    let mut rows: Vec<(f64, Pose)> = rows.filter(is_finite).collect();
+    // a row that is there twice says nothing else
+    rows.dedup();
+    StageLog::new(rows)
+}
+
+/// Asks whether the clamp moves evenly where only the ends of its motion are known.
+fn ask_speed(stage: &mut Look) {
+    let Some(log) = stage_log(stage) else { return };
+    let Some(([from, to], _)) = log.motion() else { return };
+    let within = log.rows().iter().filter(|row| from < row.0 && row.0 < to).count();
+    if within > 0 {
+        return;
+    }
+    let middle = 0.5 * (from + to);
+    let Pose { x, y, phi } = log.at(middle);
+    let text = format!(
+        "is the speed of the clamp constant from {from} to {to} s? The file has only the two ends of this motion, and the poses between are taken to be \
+         evenly apart"
+    );
+    let answers = vec![
+        format!(
+            "if it is: a row in the middle, at {middle} s with x0 = {:.4} mm, y0 = {:.4} mm, phi0 = {:.4} degrees, states it",
+            1e3 * x,
+            1e3 * y,
+            phi.to_degrees()
+        ),
+        "if it is not: a row wherever the speed changes, or the positions as the stage logs them".to_owned(),
+    ];
+    stage.report.questions.push(Question { text, answers });
 }
 
 /// Asks for the frame of a sensor where the physics does not decide it.

@@ -45,6 +45,11 @@ pub struct TareWindow<T = f64> {
     number: PhantomData<T>,
 }
 
+impl TareWindow {
+    /// Fewest samples of a window that may give a zero.
+    pub const FEWEST: usize = FEWEST;
+}
+
 impl<T: Number> TareWindow<T> {
     /// An empty window.
     pub fn new(limits: TareLimits) -> Self {

@@ -81,6 +81,18 @@ pub enum RowProblem {
         /// The text, shortened if it is long.
         text: String,
     },
+    /// The clock began anew: this row and all after it have other times.
+    #[error(
+        "the clock began anew in line {line}, at {t} s after {before} s, expected one clock in a file: save the rows from line {line} on in another"
+    )]
+    Restarted {
+        /// Line of the first such row.
+        line: u64,
+        /// Its time, s.
+        t: f64,
+        /// The time before, s.
+        before: f64,
+    },
     /// The time does not grow.
     #[error("the time {t} s is not later than {before} s of line {of}, expected a later time")]
     Late {

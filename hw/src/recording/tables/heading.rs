@@ -14,7 +14,7 @@ pub struct Column {
 }
 
 impl Column {
-    /// From `Fx`, `Fx [N]`, `Fx (mN)` or `Fx / N`.
+    /// From `Fx`, `Fx [N]`, `Fx (mN)`, `Fx / N` or `Fx in N`.
     pub(super) fn new(heading: &str) -> Self {
         let (name, unit) = match split(heading) {
             Some((name, unit)) => (name.to_owned(), Some(unit.to_owned())),
@@ -36,13 +36,15 @@ fn split(heading: &str) -> Option<(&str, &str)> {
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((name, unit)) = heading.strip_suffix(close).and_then(|rest| rest.rsplit_once(open)) {
             let (name, unit) = (name.trim_end().trim_end_matches('/').trim_end(), unit.trim());
-            let fits = !name.is_empty() && !unit.is_empty() && unit.chars().count() <= LONGEST_UNIT;
+            let is_short = unit.chars().count() <= LONGEST_UNIT || Unit::find(unit).is_some();
+            let fits = !name.is_empty() && !unit.is_empty() && is_short;
             return fits.then_some((name, unit));
         }
     }
-    let (name, unit) = heading.rsplit_once('/')?;
-    let (name, unit) = (name.trim(), unit.trim());
-    (!name.is_empty() && Unit::find(unit).is_some()).then_some((name, unit))
+    [heading.rsplit_once('/'), heading.rsplit_once(" in ")].into_iter().flatten().find_map(|(name, unit)| {
+        let (name, unit) = (name.trim(), unit.trim());
+        (!name.is_empty() && Unit::find(unit).is_some()).then_some((name, unit))
+    })
 }
 
 /// The unit that a cell of a row of units names: with or without brackets.
@@ -76,6 +78,11 @@ mod tests {
             ("Fx (mN)", "Fx", Some("mN")),
             ("Fx / N", "Fx", Some("N")),
             ("Mz / (N mm)", "Mz", Some("N mm")),
+            ("Stage X in mm", "Stage X", Some("mm")),
+            ("Moment Z in N mm", "Moment Z", Some("N mm")),
+            ("Mz [newton millimetre]", "Mz", Some("newton millimetre")),
+            ("Angle in degrees", "Angle", Some("degrees")),
+            ("Force in the plane", "Force in the plane", None),
             ("phi0 [°]", "phi0", Some("°")),
             ("Dev0/Ai0", "Dev0/Ai0", None),
             ("Force (of the sensor below)", "Force (of the sensor below)", None),

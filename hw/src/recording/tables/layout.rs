@@ -1,5 +1,6 @@
 //! Detects how a table is written, from its first lines.
 
+use super::date;
 use super::error::{TableError, TableProblem};
 use super::fault::shown;
 use super::heading::is_unit;
@@ -226,7 +227,8 @@ fn most_common(counts: impl Iterator<Item = usize>) -> usize {
 impl Row {
     fn new(line: &Line<'_>, cells: Vec<String>, decimal: Decimal) -> Self {
         let filled = cells.iter().filter(|cell| !cell.is_empty()).count();
-        let numbers = cells.iter().filter(|cell| number(cell, decimal).is_some()).count();
+        let numbers =
+            cells.iter().filter(|cell| number(cell, decimal).is_some() || date::seconds(cell).is_some()).count();
         let comment = comment(&line.text).is_some();
         Self { line: line.number, comment, cells, numbers, texts: filled - numbers }
     }

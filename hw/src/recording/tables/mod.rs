@@ -6,8 +6,10 @@
 //!
 //! `split` cuts text into lines and cells, `layout` finds out how a table is written, `read` and `lvm` read one.
 
+mod clock;
 mod column_map;
 mod columns;
+mod date;
 mod error;
 mod fault;
 mod guess;

@@ -107,7 +107,7 @@ impl Outline {
             units: found.units_line,
             first: found.first,
             below: below(text, &found),
-            beside: beside(&found),
+            beside: beside(&found, &sample),
         })
     }
 }
@@ -148,9 +148,18 @@ fn below(text: &[u8], layout: &Layout) -> Vec<Part> {
     parts
 }
 
-/// Tables beside the first one.
-fn beside(layout: &Layout) -> Vec<Part> {
+/// Tables beside the first one, by the first lines.
+fn beside(layout: &Layout, lines: &[Line<'_>]) -> Vec<Part> {
     let Some(line) = layout.header else { return Vec::new() };
-    let groups = layout.headings.split(String::is_empty).filter(|names| !names.is_empty()).skip(1);
-    groups.map(|names| Part { line, names: names.to_vec() }).collect()
+    let mut splitter = Splitter::new(layout.delimiter);
+    let mut has_values = vec![false; layout.headings.len()];
+    for line in lines.iter().filter(|line| line.number >= layout.first && comment(&line.text).is_none()) {
+        let cells = splitter.cells(&line.text);
+        has_values.iter_mut().zip(cells).for_each(|(has_values, cell)| *has_values |= !cell.is_empty());
+    }
+    // a column that only lacks its name parts nothing
+    let columns: Vec<(&String, bool)> = layout.headings.iter().zip(has_values).collect();
+    let is_gap = |(name, has_values): &(&String, bool)| name.is_empty() && !has_values;
+    let groups = columns.split(is_gap).filter(|columns| !columns.is_empty()).skip(1);
+    groups.map(|columns| Part { line, names: columns.iter().map(|column| column.0.clone()).collect() }).collect()
 }

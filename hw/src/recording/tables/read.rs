@@ -64,6 +64,7 @@ impl Table {
         };
         for table in &mut tables {
             table.cut = !bytes.ends_with(b"\n") && !bytes.ends_with(b"\r");
+            table.take_dates();
             table.take_units(&options.units)?;
         }
         Ok(tables)
@@ -151,7 +152,12 @@ fn text_table(file: &str, bytes: &[u8], options: &TableOptions) -> Result<Table,
     if headings.len() > MOST_COLUMNS {
         return Err(TableProblem::TooManyColumns { most: MOST_COLUMNS }.at(file, header.unwrap_or(first)));
     }
-    let mut columns: Vec<Column> = headings.iter().map(|heading| Column::new(heading)).collect();
+    let name = |(k, heading): (usize, &String)| match heading.is_empty() {
+        // options need a name
+        true => Column::new(&format!("column {}", k + 1)),
+        false => Column::new(heading),
+    };
+    let mut columns: Vec<Column> = headings.iter().enumerate().map(name).collect();
     for (column, unit) in columns.iter_mut().zip(units.iter().flatten().map(|unit| bare_unit(unit))) {
         if !matches!(unit, "" | "-") && column.unit.is_none() {
             column.unit = Some(unit.to_owned());

@@ -1,9 +1,10 @@
 //! The samples of a table.
 
+use super::clock::Clock;
 use super::column_map::{ColumnMap, found, of};
 use super::columns::Columns;
 use super::error::{TableError, TableProblem};
-use super::fault::{RowFault, RowProblem};
+use super::fault::RowFault;
 use super::recorded::Recorded;
 use super::role::Role;
 use super::table::Table;
@@ -12,7 +13,7 @@ impl Table {
     /// The samples of this kind, row by row: a source for a [`SignalChain`](crate::SignalChain), if they are raw samples.
     ///
     /// A row that cannot be used is an error with its line; the rows after it follow. So is one whose time is not later than that
-    /// of the sample before.
+    /// of the sample before. Where the clock begins anew, no row after that is a sample: their times are those of another clock.
     ///
     /// ```
     /// use rod_hw::recording::{ColumnMap, RowFault, Table, TableOptions};
@@ -45,19 +46,11 @@ impl Table {
             return Err(of(self, TableProblem::NoChannels { found: found(self) }));
         }
         self.check_times(&columns)?;
-        let mut last: Option<(f64, u64)> = None;
+        let mut clock = Clock::default();
         Ok(self.rows().map(move |row| {
             let line = row.line();
-            let sample = S::from_row(&row, &columns).and_then(|sample| {
-                let t = sample.time();
-                match last {
-                    Some((before, of)) if t <= before => Err(RowProblem::Late { t, before, of }),
-                    _ => {
-                        last = Some((t, line));
-                        Ok(sample)
-                    }
-                }
-            });
+            let sample =
+                S::from_row(&row, &columns).and_then(|sample| clock.take(sample.time(), line).map(|()| sample));
             sample.map_err(|problem| RowFault { line, problem })
         }))
     }

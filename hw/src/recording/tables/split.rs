@@ -51,11 +51,12 @@ pub(super) fn text(bytes: &[u8]) -> Cow<'_, str> {
 
 /// The text of a comment, if the line is one.
 pub(super) fn comment(line: &str) -> Option<&str> {
-    if is_plain(line) && !line.starts_with(['#', '%']) {
+    let marks = |line: &str| line.starts_with(['#', '%']) || line.starts_with("//");
+    if is_plain(line) && !marks(line) {
         return None;
     }
     let line = plain(line);
-    line.starts_with(['#', '%']).then(|| line.trim_start_matches(['#', '%']).trim())
+    marks(line).then(|| line.trim_start_matches(['#', '%', '/']).trim())
 }
 
 /// A cell without blanks and quotes around it.

@@ -1,5 +1,6 @@
 //! Named columns of numbers, row by row.
 
+use super::date;
 use super::fault::{RowFault, RowProblem};
 use super::heading::Column;
 use super::number::number;
@@ -34,6 +35,8 @@ pub struct Table {
     heads: Vec<Head>,
     cells: Vec<Stored>,
     texts: Vec<Box<str>>,
+    /// Which columns have dates or times of day, read in s.
+    dated: Vec<bool>,
     pub(super) cut: bool,
 }
 
@@ -101,6 +104,7 @@ impl Table {
             heads: Vec::new(),
             cells: Vec::new(),
             texts: Vec::new(),
+            dated: Vec::new(),
             cut: false,
         }
     }
@@ -198,7 +202,7 @@ impl Table {
                 // empty cells at the end do no harm
                 extra |= !cell.is_empty();
             } else {
-                let stored = stored(&mut self.texts, cell, decimal);
+                let stored = self.stored(i, cell, decimal);
                 self.cells.push(stored);
             }
         });
@@ -212,6 +216,39 @@ impl Table {
         }
     }
 
+    /// What a cell holds.
+    fn stored(&mut self, column: usize, cell: &str, decimal: Decimal) -> Stored {
+        if cell.is_empty() {
+            return Stored::Empty;
+        }
+        if let Some(value) = number(cell, decimal) {
+            return Stored::Number(value);
+        }
+        if let Some(value) = date::seconds(cell) {
+            self.dated.resize(self.dated.len().max(column + 1), false);
+            self.dated[column] = true;
+            return Stored::Number(value);
+        }
+        // flags and remarks are often those of the row before
+        if self.texts.last().is_none_or(|last| **last != *cell) {
+            self.texts.push(cell.into());
+        }
+        // more than 2^32 texts are not in a file of 4 GiB
+        Stored::Text(u32::try_from(self.texts.len() - 1).unwrap_or(u32::MAX))
+    }
+
+    /// Whether a column has dates or times of day: they are read in s, since 1970 or since midnight.
+    pub fn is_dated(&self, column: usize) -> bool {
+        self.dated.get(column).copied().unwrap_or_default()
+    }
+
+    /// States the unit of columns of dates.
+    pub(super) fn take_dates(&mut self) {
+        for (column, _) in self.columns.iter_mut().zip(&self.dated).filter(|(_, is_dated)| **is_dated) {
+            column.unit = Some("s".to_owned());
+        }
+    }
+
     /// Puts a number into all rows, from the first.
     pub(super) fn fill(&mut self, column: usize, value: impl Fn(usize) -> f64) {
         for (k, head) in self.heads.iter().enumerate() {
@@ -220,21 +257,6 @@ impl Table {
             }
         }
     }
-}
-
-fn stored(texts: &mut Vec<Box<str>>, cell: &str, decimal: Decimal) -> Stored {
-    if cell.is_empty() {
-        return Stored::Empty;
-    }
-    if let Some(value) = number(cell, decimal) {
-        return Stored::Number(value);
-    }
-    // flags and remarks are often those of the row before
-    if texts.last().is_none_or(|last| **last != *cell) {
-        texts.push(cell.into());
-    }
-    // more than 2^32 texts are not in a file of 4 GiB
-    Stored::Text(u32::try_from(texts.len() - 1).unwrap_or(u32::MAX))
 }
 
 impl<'t> Row<'t> {

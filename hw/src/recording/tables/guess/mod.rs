@@ -268,11 +268,14 @@ fn column_guess(table: &Table, column: usize, named: Named, role: Option<Role>, 
     let is_turned = written.is_some_and(|unit| unit.starts_with('-'));
     let written = written.map(|unit| unit.trim_start_matches('-'));
     let (unit, unit_basis, is_unit_known) = match (quantity, written) {
+        (Some(Quantity::Time), Some("s")) if table.is_dated(column) => {
+            (Some("s"), Basis::sure("dates and times of day are read in s"), true)
+        }
         (Some(quantity), Some(text)) if quantity.dimension().is_some() => match units::of_spelling(quantity, text) {
             Some((unit, basis)) => (Some(unit), basis.clone(), basis.sureness == Sureness::Sure),
             None => {
                 let why = format!(
-                    "`{text}` is no unit of {}",
+                    "the unit `{text}` was not understood, expected one of {}",
                     quantity.dimension().map_or_else(String::new, |d| d.to_string())
                 );
                 (None, Basis { sureness: Sureness::Open, why }, false)
@@ -307,7 +310,8 @@ fn column_guess(table: &Table, column: usize, named: Named, role: Option<Role>, 
         is_given: named.is_given,
         is_recognized: found.is_some(),
         is_unit_known,
-        is_unit_written: written.is_some() || named.unit_in_name.is_some(),
+        // a unit that is not understood says nothing
+        is_unit_written: (written.is_some() && unit.is_some()) || named.unit_in_name.is_some(),
         values,
     }
 }

@@ -14,6 +14,9 @@ const SLOW: f64 = 0.5;
 const SLOWEST: f64 = 5.0;
 /// Units of time, and how many of them a second has.
 const TIMES: [(&str, f64); 3] = [("s", 1.0), ("ms", 1e3), ("us", 1e6)];
+/// Days since 1900 that a spreadsheet shows as dates from 1982 to 2119, and a step in days that a clock in seconds does not have: 2 s.
+const DAYS: std::ops::Range<f64> = 3e4..8e4;
+const SHORT: f64 = 2e-5;
 /// A time in seconds since 1970; in milliseconds, microseconds and nanoseconds it is a thousand times as much each.
 const EPOCH: f64 = 1e9;
 
@@ -40,6 +43,10 @@ pub(super) fn of_values(quantity: Quantity, values: &ColumnSummary) -> UnitGuess
         }
         Quantity::Angle => open("values within a turn of radians fit radians and degrees"),
         Quantity::Position => of_positions(values, values.range()),
+        Quantity::Time if values.numbers == 0 => open("there is no number or date in it"),
+        Quantity::Time if DAYS.contains(&values.least) && values.step > 0.0 && values.step < SHORT => {
+            likely("day", "values count days from 1900 as a spreadsheet does".to_owned())
+        }
         Quantity::Time if size > EPOCH => {
             let power = ((size / EPOCH).log10() / 3.0).floor().clamp(0.0, 3.0);
             likely(["s", "ms", "us", "ns"][power as usize], "values count from 1970".to_owned())

@@ -58,6 +58,7 @@ const WORDS: [(Quantity, &[&str]); 8] = [
             "time",
             "zeit",
             "timestamp",
+            "zeitstempel",
             "temps",
             "tiempo",
             "tempo",
@@ -112,6 +113,7 @@ const WORDS: [(Quantity, &[&str]); 8] = [
             "position",
             "stage",
             "weg",
+            "verfahrweg",
             "lage",
             "coord",
             "koordinate",
@@ -124,6 +126,7 @@ const WORDS: [(Quantity, &[&str]); 8] = [
             "posicao",
             "pozycja",
             "poloha",
+            "positie",
             "положение",
             "位置",
             "位移",
@@ -149,6 +152,8 @@ const WORDS: [(Quantity, &[&str]); 8] = [
             "rotation",
             "yaw",
             "drehung",
+            "drehwinkel",
+            "neigung",
             "angolo",
             "angulo",
             "orientation",
@@ -197,7 +202,7 @@ const WORDS: [(Quantity, &[&str]); 8] = [
 ];
 
 /// Words beside the quantity that do not change it.
-const BESIDE: [&str; 16] = [
+const BESIDE: [&str; 18] = [
     "wrench",
     "sensor",
     "ft",
@@ -214,6 +219,8 @@ const BESIDE: [&str; 16] = [
     "value",
     "wert",
     "tcp",
+    "pose",
+    "field",
 ];
 
 /// The meaning of a name, if its words are known.
@@ -336,6 +343,9 @@ mod tests {
             ("t", Time, None),
             ("ms", Time, None),
             ("pos_x", Position, Some(0)),
+            ("pose.position.x", Position, Some(0)),
+            ("pose.yaw", Angle, None),
+            ("field.wrench.force.y", Force, Some(1)),
             ("X", Position, Some(0)),
             ("stage_y", Position, Some(1)),
             ("xPos", Position, Some(0)),
