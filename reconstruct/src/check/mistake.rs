@@ -111,6 +111,12 @@ impl Mistake {
         (0..3).all(is_steady).then_some(Self::Tare(Reactions { f0x, f0y, m0z }))
     }
 
+    /// Whether what the sensor shows at rest is more than three standard deviations of its `bias`: less is an error that all samples share.
+    pub(crate) fn is_beyond(self, bias: [f64; 3]) -> bool {
+        let Self::Tare(Reactions { f0x, f0y, m0z }) = self else { return true };
+        [f0x, f0y, m0z].into_iter().zip(bias).any(|(shown, sigma)| shown.abs() > 3.0 * sigma)
+    }
+
     /// Whether the line of tangential contacts, whose slope is the bending stiffness, has about that of the rod without the mistake. Without a line nothing
     /// tells of units: a recording in units that are too small by far is all noise.
     pub(crate) fn leaves_line(self, rod: &Rod, slope: Option<f64>) -> bool {
@@ -222,6 +228,7 @@ mod tests {
         let Some(Mistake::Tare(rest)) = Mistake::of_rest(&steady) else { panic!("not at rest") };
         assert!((rest.f0x - 0.1005).abs() < 1e-12 && (rest.f0y - 0.2).abs() < 1e-12);
         assert!(Mistake::Tare(rest).undone(&rod, &[at(0.1)]).1[0].reactions.f0y.abs() < 1e-12);
+        assert!(Mistake::Tare(rest).is_beyond([5e-3; 3]) && !Mistake::Tare(rest).is_beyond([0.1; 3]));
         let rising: Vec<Sample> = (0..16).map(|k| at(0.01 * f64::from(k))).collect();
         assert_eq!(Mistake::of_rest(&rising), None);
     }

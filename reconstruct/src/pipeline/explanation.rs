@@ -85,12 +85,13 @@ pub fn explanations(rod: &Rod, samples: &[Sample], settings: &Settings, finds: &
     // K / (2 |F|) along tangential contacts has one value, that of friction, only in the units in which it was found
     let rubs = finds.iter().any(|finding| matches!(finding, Finding::Friction { .. } | Finding::FrictionGiven { .. }));
     let slope = plausibility_with_friction(rod, samples, |_| 0.0).line.map(|line| line.slope);
+    let untared = Mistake::of_rest(samples).filter(|mistake| mistake.is_beyond(usual.bias));
     let is_possible = |mistake: &Mistake| {
         mistake.is_possible(rod, &thin)
             && mistake.leaves_line(rod, slope)
             && !(rubs && matches!(mistake, Mistake::Units(..)))
     };
-    let possible = Mistake::ALL.into_iter().chain(Mistake::of_rest(samples)).chain(of_slope).filter(is_possible);
+    let possible = Mistake::ALL.into_iter().chain(untared).chain(of_slope).filter(is_possible);
     let few = thinned(samples, FIRST);
     let mut likely: Vec<(Mistake, f64)> = possible.filter_map(|mistake| log(mistake, &few)).collect();
     likely.sort_by(|a, b| b.1.total_cmp(&a.1));
