@@ -61,7 +61,16 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
         }
         several => Together::fit(several, &settings, |what| stage(&what)),
     };
-    left_out.extend(found.iter_mut().filter_map(|one| judge(one, &settings, truth.as_deref()).err()));
+    for one in &mut found {
+        if let Err(error) = judge(one, &settings, truth.as_deref()) {
+            left_out.push(error);
+        }
+    }
+    if recordings.len() == 1
+        && let Some(error) = left_out.pop()
+    {
+        return Err(error);
+    }
     let complete = left_out.is_empty();
     left_out.into_iter().for_each(complain);
     if let ([one], 1) = (&found[..], recordings.len()) {
@@ -90,8 +99,7 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
             _ => code,
         });
     }
-    let code = verdict(&found);
-    Ok(if complete { code } else { ExitCode::FAILURE })
+    Ok(verdict(&found))
 }
 
 /// Refuses the options that say something of errors that all samples share, of which nothing is known for such a rod.
