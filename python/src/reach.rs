@@ -52,13 +52,16 @@ const PARTS: &[Column<OutlinePart>] = &[
 /// A line of an outline: how it is touched, and its points x, y (m).
 type Line = (String, Vec<[f64; 2]>);
 
+/// The scans, the parts of the outline, its length (m), and the lines of its parts.
+type Tables<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, f64, Vec<Line>);
+
 /// The tables of :func:`vibrissa.reach`, the length of all outlines, and the lines of their parts.
 #[pyfunction]
 pub fn _reach<'py>(
     scene: &Bound<'py, PyScene>,
     distances: Option<Floats<'py>>,
     angles: Option<Floats<'py>>,
-) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, f64, Vec<Line>)> {
+) -> PyResult<Tables<'py>> {
     let (py, scene) = (scene.py(), scene.get());
     if scene.friction.is_some() {
         return Err(errors::value("the scene has friction, expected none: reach computes contacts without friction"));
