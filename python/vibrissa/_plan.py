@@ -57,7 +57,7 @@ class Plan:
         """
         from .plot._plan import plan
 
-        return plan(self, self._found.fitted, ax)
+        return plan(self.chosen, self.hypotheses, self._found.fitted, ax)
 
     def to_pandas(self) -> Any:
         """The candidates as a pandas data frame.

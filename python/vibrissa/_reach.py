@@ -13,6 +13,9 @@ from ._core import Scene, _reach
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+# How scans may touch a part of an outline.
+_HOW = ("single", "several", "never")
+
 
 @dataclass(frozen=True)
 class Reach:
@@ -48,7 +51,7 @@ class Reach:
         -------
         float
         """
-        if how not in ("single", "several", "never"):
+        if how not in _HOW:
             raise ValueError(f"how is {how!r}, expected 'single', 'several' or 'never'")
         chosen = self.parts[self.parts["how"] == how]
         return float(np.sum(chosen["end"] - chosen["start"])) / self.length
@@ -77,7 +80,7 @@ class Reach:
         """
         from .plot._plan import reach
 
-        return reach(self, ax)
+        return reach(self.lines(), {how: self.share(how) for how in _HOW}, ax)
 
     def to_pandas(self, table: str = "scans") -> Any:
         """The scans, or the parts of the outlines, as a pandas data frame.

@@ -6,10 +6,11 @@
 //! contradiction remains, but that reactions may not change while the clamp stands (see `standing`).
 
 use super::agreement::{LAG, energy, in_contact, some_rod, work_between};
-use super::frame::{WORK, averages};
+use super::frame::WORK;
 use super::physics::InFrame;
+use super::stage_log::StageLog;
 use super::standing::Standing;
-use vibrissa::rod::Reactions;
+use super::timed::{Timed, timed_averages};
 use vibrissa::{Pose, Rod, Sample};
 
 /// Decrease of the logarithm of the likelihood at the ends of the interval: half the 95 % quantile of chi squared with one degree of freedom.
@@ -24,8 +25,6 @@ const RELATIVE: f64 = 0.02;
 const COARSE: usize = 400;
 /// The same where the clamp turns, and each delay needs all energies anew.
 const COARSE_TURNING: usize = 120;
-/// Standard deviations beyond which a reaction has changed.
-pub(super) const SIGMAS: f64 = 6.0;
 
 /// The delays of the stage's clock that agree with the physics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,96 +41,9 @@ pub(super) struct DelayFound {
     pub concordance: f64,
 }
 
-/// Poses of the clamp on the stage's clock.
-#[derive(Clone, Debug)]
-pub(super) struct StageLog(Vec<(f64, Pose)>);
-
-impl StageLog {
-    /// Of rows in the order of time; none with fewer than two.
-    pub fn new(rows: Vec<(f64, Pose)>) -> Option<Self> {
-        (rows.len() > 1 && rows.windows(2).all(|pair| pair[0].0 < pair[1].0)).then_some(Self(rows))
-    }
-
-    /// Times and poses in the order of time.
-    pub fn rows(&self) -> &[(f64, Pose)] {
-        &self.0
-    }
-
-    /// First and last time, s.
-    pub fn span(&self) -> [f64; 2] {
-        [self.0[0].0, self.0[self.0.len() - 1].0]
-    }
-
-    /// The pose at a time; before the first and after the last row the clamp is taken to stand.
-    pub fn at(&self, t: f64) -> Pose {
-        let after = self.0.partition_point(|row| row.0 < t);
-        match (after.checked_sub(1).map(|before| self.0[before]), self.0.get(after)) {
-            (Some((earlier, from)), Some(&(later, to))) => {
-                let share = (t - earlier) / (later - earlier);
-                let between = |from: f64, to: f64| from + share * (to - from);
-                Pose { x: between(from.x, to.x), y: between(from.y, to.y), phi: between(from.phi, to.phi) }
-            }
-            (None, Some(row)) => row.1,
-            (last, None) => last.unwrap_or(self.0[0]).1,
-        }
-    }
-
-    /// When the clamp leaves its first and reaches its last pose, and its largest speed between, over a hundredth of the time, m/s; none if it stands.
-    pub fn motion(&self) -> Option<([f64; 2], f64)> {
-        let distance = |a: &Pose, b: &Pose| (a.x - b.x).hypot(a.y - b.y);
-        let (first, last) = (self.0[0].1, self.0[self.0.len() - 1].1);
-        let size = self.0.iter().map(|row| distance(&row.1, &first)).fold(0.0, f64::max);
-        let turn = self.0.iter().map(|row| (row.1.phi - first.phi).abs()).fold(0.0, f64::max);
-        // a thousandth of the way is more than the resolution of a stage, and less than matters
-        let leaves = |from: &Pose, pose: &Pose| {
-            distance(from, pose) > 1e-3 * size || (pose.phi - from.phi).abs() > 1e-3 * turn.max(f64::MIN_POSITIVE)
-        };
-        let start = self.0.iter().position(|row| leaves(&first, &row.1))?.checked_sub(1)?;
-        let end = (self.0.iter().rposition(|row| leaves(&last, &row.1))? + 1).min(self.0.len() - 1);
-        let [from, to] = self.span();
-        let step = (to - from) / 100.0;
-        let speeds = (0..100).map(|k| {
-            let t = from + f64::from(k) * step;
-            distance(&self.at(t), &self.at(t + step)) / step
-        });
-        Some(([self.0[start].0, self.0[end].0], speeds.fold(0.0, f64::max)))
-    }
-
-    /// In the units and signs of a hypothesis.
-    fn in_frame(&self, frame: &InFrame) -> Self {
-        Self(self.0.iter().map(|(t, pose)| (*t, frame.pose(*pose))).collect())
-    }
-}
-
-/// Reactions with the times of the sensor.
-pub(super) type Timed = (f64, Reactions);
-
 /// Samples with the poses that the stage has if its clock is delayed.
 pub(super) fn joined(sensed: &[Timed], stage: &StageLog, delay: f64) -> Vec<Sample> {
     sensed.iter().map(|(t, reactions)| Sample::new(stage.at(t - delay), *reactions)).collect()
-}
-
-/// When the reactions first differ from those at the start, and when they last differ from those at the end, s on the sensor's clock.
-pub(super) fn changes(sensed: &[Timed]) -> Option<[f64; 2]> {
-    let (averages, noise) = timed_averages(sensed)?;
-    let differs = |a: &Sample, b: &Sample| {
-        let (a, b) = (a.reactions, b.reactions);
-        [a.f0x - b.f0x, a.f0y - b.f0y, a.m0z - b.m0z]
-            .iter()
-            .zip(noise)
-            .any(|(difference, noise)| difference.abs() > SIGMAS * noise)
-    };
-    let (first, last) = (averages.first()?, averages.last()?);
-    let start = averages.iter().position(|sample| differs(sample, first))?;
-    let end = averages.iter().rposition(|sample| differs(sample, last))?;
-    Some([averages[start].pose.x, averages[end].pose.x])
-}
-
-/// Averages whose x is the time, and their noise.
-pub(super) fn timed_averages(sensed: &[Timed]) -> Option<(Vec<Sample>, [f64; 3])> {
-    let timed = |(t, reactions): &Timed| Sample::new(Pose { x: *t, y: 0.0, phi: 0.0 }, *reactions);
-    let samples: Vec<Sample> = sensed.iter().map(timed).collect();
-    averages(&samples).map(|(averages, noise, _)| (averages, noise))
 }
 
 /// The delays at which half of the shorter recording is within the other one.
@@ -241,8 +153,8 @@ impl<'a> Search<'a> {
         let contact = in_contact(&samples, noise);
         let stiffness = frame.stiffness();
         let rod = some_rod(&samples, stiffness, rod.map(Rod::length))?;
-        let phi = stage.0[0].1.phi;
-        let turns = stage.0.iter().any(|row| (row.1.phi - phi).abs() > 1e-4);
+        let phi = stage.rows()[0].1.phi;
+        let turns = stage.rows().iter().any(|row| (row.1.phi - phi).abs() > 1e-4);
         let mut search = Self { samples, contact, stage, rod, stiffness, turns, energies: Vec::new(), limit: 0.0 };
         search.energies = search.energies(0.0);
         let energies = &search.energies;

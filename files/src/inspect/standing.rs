@@ -3,11 +3,10 @@
 //! A clamp that has not started or has arrived, and one that stops on its way, cannot change the reactions of a quasi-static rod. A delay of
 //! the stage's clock under which they change then is wrong, whatever work and energy say.
 
-use super::clock::{SIGMAS, StageLog, Timed, timed_averages};
+use super::stage_log::{STILL, StageLog, distance};
+use super::timed::{SIGMAS, Timed, timed_averages};
 use vibrissa::Pose;
 
-/// Part of the way, and of the turn, within which a clamp stands: more than the resolution of a stage, and less than matters.
-const STILL: f64 = 1e-3;
 /// Largest mean speed of a clamp that stands, in its largest speed: a slow motion within the resolution is none.
 const SLOW: f64 = 0.02;
 /// Part of the range of a reaction by which it may change without noise: the error of gains, creep, and what the resolution of the stage hides.
@@ -73,10 +72,7 @@ impl Standing {
 /// When the clamp stands; none if it never moves.
 fn rests(stage: &StageLog) -> Option<Vec<[f64; 2]>> {
     let rows = stage.rows();
-    let distance = |a: &Pose, b: &Pose| (a.x - b.x).hypot(a.y - b.y);
-    let first = rows[0].1;
-    let way = rows.iter().map(|row| distance(&row.1, &first)).fold(0.0, f64::max);
-    let turn = rows.iter().map(|row| (row.1.phi - first.phi).abs()).fold(0.0, f64::max);
+    let [way, turn] = stage.extent();
     if way == 0.0 && turn == 0.0 {
         return None;
     }

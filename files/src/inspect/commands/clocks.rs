@@ -2,12 +2,14 @@
 
 use super::rod;
 use crate::inspect::InspectOptions;
-use crate::inspect::clock::{DelayFound, StageLog, Timed, changes, delay, joined, range};
+use crate::inspect::clock::{DelayFound, delay, joined, range};
 use crate::inspect::look::Look;
 use crate::inspect::physics::{InFrame, Measured, Source};
 use crate::inspect::report::{InspectedFile, Question};
 use crate::inspect::shell_word::quoted;
+use crate::inspect::stage_log::StageLog;
 use crate::inspect::standing::{Contradiction, Standing};
+use crate::inspect::timed::{Timed, changes};
 use crate::inspect::values::factor;
 use crate::{LiveScan, StageDelay};
 use std::path::Path;

@@ -3,12 +3,12 @@
 use super::clocks::{CLOCKS, Clocks, stage_delay};
 use super::{is_answered, rod, scan, start, tried};
 use crate::inspect::InspectOptions;
-use crate::inspect::clock::StageLog;
 use crate::inspect::look::{Content, Look};
 use crate::inspect::physics::{Measured, Says, Source, physics};
 use crate::inspect::proposal::{Proposal, name_of};
 use crate::inspect::report::{InspectedFile, Question, ReadCommand};
 use crate::inspect::setup_text::{Components, SetupText};
+use crate::inspect::stage_log::StageLog;
 use crate::inspect::values::channel;
 use crate::{ReadOptions, Setup, StageDelay, StageSpec};
 use vibrissa::Pose;
