@@ -99,10 +99,9 @@ impl Merged {
     }
 
     /// Why the scans contradict each other, if they do: errors of rod, sensor, clamp or stage that should stay the same differ, or contours
-    /// of one place are apart, or no contour explains all of these `recordings`.
-    pub fn contradictions(&self, recordings: &[Reconstructed]) -> Vec<String> {
-        let mut found: Vec<String> =
-            self.together.iter().filter_map(|together| together.contradiction(recordings)).collect();
+    /// of one place are apart, or no contour explains all.
+    pub fn contradictions(&self) -> Vec<String> {
+        let mut found: Vec<String> = self.together.iter().filter_map(Together::contradiction).collect();
         if let Some(Combined { chi_squared, freedom, .. }) = self.combined.as_ref().filter(|all| all.contradicts()) {
             found.push(format!(
                 "the scans contradict each other: errors of rod, sensor, clamp or stage that should stay the same differ (chi-squared \
@@ -134,7 +133,7 @@ impl Merged {
     ///
     /// # Errors
     /// [`WriteError`].
-    pub fn write(&self, staged: &Staged, recordings: &[Reconstructed]) -> Result<(), WriteError> {
+    pub fn write(&self, staged: &Staged) -> Result<(), WriteError> {
         let Self { scans, align, combined, together, .. } = self;
         let record = MergedRecord {
             scans,
@@ -142,7 +141,7 @@ impl Merged {
             together: *together,
             chi_squared: combined.as_ref().map(|combined| combined.chi_squared),
             freedom: combined.as_ref().map(|combined| combined.freedom),
-            contradict: !self.contradictions(recordings).is_empty(),
+            contradict: !self.contradictions().is_empty(),
             disagree: self.disagreements.iter().map(DisagreementRecord::from).collect(),
         };
         staged.write(Path::new("contour.csv"), |file| write_csv(file, &CONTOUR_COLUMNS, self.contour.rows()))?;
@@ -162,7 +161,7 @@ impl Merged {
             table.row([folder.clone(), fits.to_owned(), format!("{:.4}", 1e3 * offset), group]);
         }
         text += &table.to_string();
-        if let Some(Together { recordings, explains, chi_squared, degrees_of_freedom }) = &self.together {
+        if let Some(Together { recordings, explains, chi_squared, degrees_of_freedom, .. }) = &self.together {
             let of = format!("chi squared {chi_squared:.0} of {degrees_of_freedom:.0} degrees of freedom");
             let _ = match explains {
                 true => writeln!(

@@ -49,17 +49,15 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     }
     let together = match &mut found[..] {
         _ if local => None,
-        [one] => {
-            stage(&format!("{}: fitting one contour to the whole recording", one.recording.file.display()));
-            one.fit(&settings);
-            None
-        }
         // scans that are to be moved are not in one frame
-        several if align.is_some() => {
-            several.iter_mut().for_each(|one| one.fit(&settings));
+        several @ [_, _, ..] if align.is_none() => Together::fit(several, &settings, |what| stage(&what)),
+        apart => {
+            for one in apart {
+                stage(&format!("{}: fitting one contour to the whole recording", one.recording.file.display()));
+                one.fit(&settings);
+            }
             None
         }
-        several => Together::fit(several, &settings, |what| stage(&what)),
     };
     for one in &mut found {
         if let Err(error) = judge(one, &settings, truth.as_deref()) {
@@ -85,12 +83,12 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
         let staged = Staged::new(&out)?.keeping(scan.inputs);
         let merged = Merged::of(&mut found, align.map(f64::to_radians), together);
         found.iter().try_for_each(|one| write_reconstruction(one, &staged, Path::new(&one.name)))?;
-        merged.write(&staged, &found)?;
+        merged.write(&staged)?;
         staged.publish()?;
         found.iter().for_each(|one| say(&format!("{}\n", one.summary())));
         say(&merged.summary());
         say(&format!("written to {}\n", out.display()));
-        let contradictions = merged.contradictions(&found);
+        let contradictions = merged.contradictions();
         contradictions.iter().for_each(|why| warn(&format!("warning: {why}\n")));
         let code = verdict(&found);
         return Ok(match (complete, contradictions.is_empty()) {

@@ -492,7 +492,7 @@ pub fn reconstruct_together(
     };
     let (found, together) =
         running::run(py, reconstructed)?.map_err(|error: ReconstructionError| errors::value(error))?;
-    if let Some(why) = together.and_then(|together| together.contradiction(&found)) {
+    if let Some(why) = together.and_then(|together| together.contradiction()) {
         warn(py, &why)?;
     }
     found.into_iter().map(|one| told(py, rod, one, settings)).collect()

@@ -16,6 +16,9 @@ pub struct Together {
     pub chi_squared: f64,
     /// Number of residuals less the unknowns that the recordings determine.
     pub degrees_of_freedom: f64,
+    /// Whether each recording has a contour of its own that explains it.
+    #[serde(skip)]
+    pub each: bool,
 }
 
 impl Together {
@@ -33,6 +36,8 @@ impl Together {
         let fitted: Vec<usize> =
             (0..found.len()).filter(|k| found[*k].fits() && found[*k].fitted().is_some()).collect();
         let [first, _, ..] = fitted[..] else { return None };
+        let has_own = |one: &Reconstructed| !one.fits() || one.fitted().is_none_or(|fit| fit.goodness.explains);
+        let each = found.iter().all(has_own);
         progress(format!("fitting one contour to {} recordings", fitted.len()));
         let recordings: Vec<(&[Sample], &Reconstruction)> =
             fitted.iter().map(|k| (&found[*k].samples[..], &found[*k].found)).collect();
@@ -47,21 +52,22 @@ impl Together {
             explains: fits.iter().all(|fit| fit.goodness.explains),
             chi_squared: sum(|fit| fit.goodness.chi_squared),
             degrees_of_freedom: sum(|fit| fit.goodness.degrees_of_freedom),
+            each,
         };
         if together.explains {
-            for (k, fit) in fitted.into_iter().zip(fits) {
+            let mut fits = fits.into_iter();
+            for (k, local) in locals.into_iter().enumerate().filter(|(k, _)| fitted.contains(k)) {
                 // in place of the fit of its own
-                (found[k].found, found[k].check) = locals[k].clone();
-                found[k].take(Ok(fit), settings);
+                (found[k].found, found[k].check) = local;
+                fits.next().into_iter().for_each(|fit| found[k].take(Ok(fit), settings));
             }
         }
         Some(together)
     }
 
     /// Why no contour explains the recordings; none where one does, or where not each recording has one of its own.
-    pub fn contradiction(&self, found: &[Reconstructed]) -> Option<String> {
-        let has_own = |one: &Reconstructed| !one.fits() || one.fitted().is_none_or(|fit| fit.goodness.explains);
-        (!self.explains && found.iter().all(has_own)).then(|| {
+    pub fn contradiction(&self) -> Option<String> {
+        (!self.explains && self.each).then(|| {
             format!(
                 "each recording has a contour that explains it, but no contour was found that explains all {}: the object or the frame moved between \
                  them, or rod, sensor, clamp or stage changed; their contours are merged as they are",

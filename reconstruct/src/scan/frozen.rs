@@ -1,6 +1,7 @@
 //! Samples of a sensor that repeats itself: it has lost its connection, or has reached the end of its range.
 
 use super::noise_estimate::estimate;
+use super::usual::usual;
 use rod_core::{Reactions, Sample};
 
 /// Fewest equal values in a row that cannot be chance. Where less than a third of all neighbours are equal, chance makes so many in one
@@ -25,7 +26,8 @@ pub(super) fn frozen(samples: &[Sample]) -> Vec<bool> {
             found.fill(true);
             continue;
         }
-        let least = FEWEST.max(HELD * usual_hold(&values));
+        // a sensor that is lost for most of a recording holds one value for all that time
+        let least = FEWEST.max(HELD * usual(values.chunk_by(|a, b| a == b).map(<[f64]>::len)));
         let mut start = 0;
         let mut rows = Vec::new();
         for run in values.chunk_by(|a, b| a == b) {
@@ -39,14 +41,6 @@ pub(super) fn frozen(samples: &[Sample]) -> Vec<bool> {
         }
     }
     found
-}
-
-/// Number of samples for which a value is usually held. Half of the values, not of the samples: a sensor that is lost for most of a recording holds one value
-/// for all that time.
-fn usual_hold(values: &[f64]) -> usize {
-    let mut runs: Vec<usize> = values.chunk_by(|a, b| a == b).map(<[f64]>::len).collect();
-    let middle = runs.len() / 2;
-    if runs.is_empty() { 1 } else { *runs.select_nth_unstable(middle).1 }
 }
 
 /// Whether a channel has noise of more than its last digit outside of long rows of equal values.

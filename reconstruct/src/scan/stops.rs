@@ -1,5 +1,6 @@
 //! Samples of a clamp that stands still.
 
+use super::usual::usual;
 use crate::point::Clamp;
 use nalgebra::Vector3;
 
@@ -39,15 +40,8 @@ pub(super) fn stops(clamps: &[Clamp], trembling: f64) -> Vec<Stop> {
     }
     let resting = if goes { resting } else { groups(clamps, (SIGMAS * trembling).max(SAME)) };
     let steps = !goes && standing(&resting, LONG) > enough;
-    let least = if steps { LONG } else { (LONGER * usual(&resting)).max(2) };
+    let least = if steps { LONG } else { (LONGER * usual(resting.iter().copied())).max(2) };
     average_groups(clamps, &resting, least)
-}
-
-/// The median of the lengths of groups.
-fn usual(groups: &[usize]) -> usize {
-    let mut lengths = groups.to_vec();
-    let middle = lengths.len() / 2;
-    if lengths.is_empty() { 1 } else { *lengths.select_nth_unstable(middle).1 }
 }
 
 /// Lengths of the groups of consecutive poses within `distance` of their first ones' mean.
