@@ -7,7 +7,7 @@ use rod_reconstruct::noise_estimate::ChannelNoise;
 
 const STEP: f64 = 1e-4;
 const OPTIONS: KinkOptions = KinkOptions { false_alarms: 0.05, widest: 0.04 };
-const NOISE: ChannelNoise = ChannelNoise { sigma: 0.002, lag1: 0.0, long_run: 1.0 };
+const NOISE: ChannelNoise = ChannelNoise { sigma: 0.002, lag1: 0.0, long_run: 1.0, spread: 0.0 };
 
 fn recording(seed: u64) -> (Vec<f64>, [Vec<f64>; 3]) {
     let mut noise = Noise::new(seed, 0.0);

@@ -64,7 +64,7 @@ impl LiveSettings {
             if found.sigma > rounding {
                 return found;
             }
-            ChannelNoise { sigma: rounding, lag1: 1.0 - 1.0 / STEP, long_run: STEP }
+            ChannelNoise { sigma: rounding, lag1: 1.0 - 1.0 / STEP, long_run: STEP, spread: 0.0 }
         });
         let half_window = (HALF_WINDOW * rod.length()).max(FEWEST_IN_HALF_WINDOW * spacing);
         Ok(Self { half_window, ..Self::new(noise, spacing) })

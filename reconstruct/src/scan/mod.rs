@@ -4,6 +4,7 @@
 //! poses are smoothed where they tremble, [`noise_estimate`] the noise of each channel, and
 //! `LocalCubic` gives values and rates of pose and reactions at a place, with their covariance.
 
+mod autoregression;
 pub(crate) mod bands;
 mod frozen;
 mod local_cubic;

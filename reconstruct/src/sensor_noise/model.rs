@@ -112,7 +112,7 @@ impl NoiseModel {
         std::array::from_fn(|c| {
             let share = if sigma[c] > 0.0 { (ar1[c] / sigma[c]).powi(2) } else { 0.0 };
             let long_run = 1.0 + share * ((1.0 + rho) / (1.0 - rho) - 1.0);
-            ChannelNoise { sigma: sigma[c], lag1: share * rho, long_run }
+            ChannelNoise { sigma: sigma[c], lag1: share * rho, long_run, spread: 0.0 }
         })
     }
 
