@@ -227,7 +227,7 @@ fn kinks_within_a_phase_are_told() {
     let reconstruct = ["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml"];
     let output = vibrissa(directory.path(), &[&reconstruct[..], &["--local"]].concat());
     assert!(
-        complaint(&output).contains("2 kinks within phase B, the first before sample 2126"),
+        complaint(&output).contains("2 kinks within phase B, the first before sample 2125"),
         "{}",
         complaint(&output)
     );

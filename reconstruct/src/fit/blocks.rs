@@ -50,6 +50,8 @@ pub(super) struct Block {
     pub half: Vector3<f64>,
     /// Standard deviations of its reactions.
     pub sigma: Vector3<f64>,
+    /// Relative variance of the mean of their squares, which are estimated.
+    pub noise_spread: f64,
     /// What the local answer says of the sample in its middle.
     pub label: Label,
     /// The contacts that it gives, SI units of the given rod; empty where they are not known.
@@ -335,6 +337,8 @@ impl Cut<'_> {
             motion: motion(track, usable[usable.len() / 2]),
             half: 0.5 * (track.clamps[usable[usable.len() - 1]].pose - track.clamps[usable[0]].pose),
             sigma,
+            // the channels are independent
+            noise_spread: noise.iter().map(|channel| channel.spread).sum::<f64>() / 9.0,
             label: middle.label,
             contacts: self.contacts(middle),
             systematic: middle.touch.ok().map(|touch| touch.systematic),

@@ -55,6 +55,7 @@ mod tests {
         let goodness = Goodness {
             chi_squared: 1.0,
             degrees_of_freedom: 1.0,
+            noise_spread: 0.0,
             p_value: 0.5,
             worst: None,
             unreached: 0.0,

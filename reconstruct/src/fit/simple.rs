@@ -223,7 +223,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
         // far off the quadratic form is a rough one, and is soon a better one
         let is_hopeful = |found: &Found, before: f64| {
             let more = found.cost - near.cost;
-            probability(more, freedom) >= UNLIKELY || more < (before - near.cost) / HOPEFUL
+            probability(more, freedom, best.goodness.noise_spread) >= UNLIKELY || more < (before - near.cost) / HOPEFUL
         };
         if !is_hopeful(&found, MOST * best.residuals) {
             return None;
@@ -247,7 +247,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let others = best.residuals - best.goodness.degrees_of_freedom - determined;
         let goodness = Goodness::of(&explained, &self.blocks.blocks, others + free, best.goodness.farthest_error);
         let chi_squared = goodness.chi_squared - best.goodness.chi_squared;
-        let p_value = probability(chi_squared, freedom);
+        let p_value = probability(chi_squared, freedom, best.goodness.noise_spread);
         let there = self.part(best, &x, part.object, &part.touched)?;
         let family = found.family(&there.places);
         let parameters = found.named(&family, self.rod.units().length)?;

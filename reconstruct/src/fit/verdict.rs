@@ -2,13 +2,13 @@
 
 use super::blocks::Block;
 use super::problem::Explained;
-use crate::numeric::chi_squared::upper_tail;
+use crate::numeric::chi_squared::upper_tail_of_ratio;
 use crate::systematic::Source;
 use std::ops::Range;
 
 /// Blocks of a window.
 const WINDOW: usize = 12;
-/// Relative standard deviation of the noise, which is itself estimated from the recording: so much is chi squared off without meaning anything.
+/// Relative standard deviation of the noise of a long recording: by so much it is no noise of the model.
 const NOISE_KNOWN_TO: f64 = 0.03;
 /// Probability below which a recording is not explained.
 pub(super) const UNLIKELY: f64 = 1e-4;
@@ -39,7 +39,9 @@ pub struct Goodness {
     pub chi_squared: f64,
     /// Number of residuals less the unknowns that the recording determines.
     pub degrees_of_freedom: f64,
-    /// Probability of a sum as large or larger, where the noise is known to 3 %.
+    /// Relative variance of the squares of the standard deviations, which are estimated from the recording.
+    pub noise_spread: f64,
+    /// Probability of a sum as large or larger.
     pub p_value: f64,
     /// Where it is worst; none for a recording shorter than a window.
     pub worst: Option<WorstWindow>,
@@ -60,9 +62,9 @@ const MOST_OFF: f64 = 5.0;
 /// Largest share of blocks that are not reached of a recording that is explained: those beside a jump that the model makes a little earlier.
 pub(super) const MOST_UNREACHED: f64 = 0.02;
 
-/// Probability of a sum of squares as large or larger of so many degrees of freedom.
-pub(super) fn probability(chi_squared: f64, degrees_of_freedom: f64) -> f64 {
-    upper_tail(chi_squared / (1.0 + NOISE_KNOWN_TO).powi(2), degrees_of_freedom)
+/// Probability of a sum of squares as large or larger of so many degrees of freedom, where the noise has this relative variance.
+pub(super) fn probability(chi_squared: f64, degrees_of_freedom: f64, noise_spread: f64) -> f64 {
+    upper_tail_of_ratio(chi_squared / degrees_of_freedom, degrees_of_freedom, noise_spread)
 }
 
 impl Goodness {
@@ -77,7 +79,11 @@ impl Goodness {
         let square = |k: &usize| explained.residuals[*k].map_or(0.0, |residual| residual.norm_squared());
         let chi_squared: f64 = known.iter().map(square).sum();
         let degrees_of_freedom = (3.0 * known.len() as f64 - determined).max(1.0);
-        let p_value = probability(chi_squared, degrees_of_freedom);
+        let of_recording =
+            |own: &[usize]| (own.len() as f64 / known.len() as f64).powi(2) * blocks[own[0]].noise_spread;
+        let recordings = known.chunk_by(|k, next| blocks[*k].recording == blocks[*next].recording);
+        let noise_spread = (2.0 * NOISE_KNOWN_TO).powi(2) + recordings.map(of_recording).sum::<f64>();
+        let p_value = probability(chi_squared, degrees_of_freedom, noise_spread);
         let windows = known.len() as f64 / WINDOW as f64;
         let worst = known.windows(WINDOW).map(|window| (window.iter().map(square).sum::<f64>(), window));
         let worst = worst.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(sum, window)| {
@@ -86,7 +92,7 @@ impl Goodness {
                 squares.sum::<f64>()
             };
             let channel = (0..3).max_by(|a, b| of_channel(*a).total_cmp(&of_channel(*b))).unwrap_or(0);
-            let p = probability(sum, 3.0 * WINDOW as f64);
+            let p = probability(sum, 3.0 * WINDOW as f64, noise_spread);
             WorstWindow {
                 samples: blocks[window[0]].samples.start..blocks[window[WINDOW - 1]].samples.end,
                 channel: CHANNELS[channel].to_owned(),
@@ -98,8 +104,16 @@ impl Goodness {
         });
         let lost = explained.unreached + explained.others;
         let unreached = lost as f64 / (lost + known.len()).max(1) as f64;
-        let mut found =
-            Self { chi_squared, degrees_of_freedom, p_value, worst, unreached, farthest_error, explains: false };
+        let mut found = Self {
+            chi_squared,
+            degrees_of_freedom,
+            noise_spread,
+            p_value,
+            worst,
+            unreached,
+            farthest_error,
+            explains: false,
+        };
         found.explains = p_value >= UNLIKELY
             && found.unlikely_window().is_none()
             && !found.is_unreached()
