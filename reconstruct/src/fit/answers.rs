@@ -39,7 +39,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
         };
         let margins: Vec<Margins> = (0..blocks.len()).map(margins).collect();
         let probabilities = probabilities(labels, &margins, &self.blocks.segments);
-        let touched = Self::touched(model, rates, covariance);
+        let touched = self.touched(model, rates, &(covariance - &shared));
         let (mut answers, mut covariances) = (vec![None; samples.len()], Vec::new());
         for (k, block) in self.blocks.blocks.iter().enumerate().filter(|(k, _)| labels[*k].is_some()) {
             let probability = probabilities[k];
@@ -83,7 +83,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
     }
 
     /// The part of a covariance of the unknowns that the errors cause which all samples share; none where it is singular.
-    fn by_errors(&self, covariance: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    pub(super) fn by_errors(&self, covariance: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         let (first, count) = (self.curve.count(), self.sources.free.len());
         let rows = covariance.columns(first, count);
         let own = covariance.view((first, first), (count, count)).into_owned();

@@ -9,7 +9,7 @@ use crate::phase::Label;
 use nalgebra::{DMatrix, Vector2};
 use rod_contact::State;
 use rod_core::{PhysicalRod, Reactions};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How far outside of a contour the rod may have passed to bound it, rod lengths.
 const FAR: f64 = 1.0;
@@ -17,6 +17,9 @@ const FAR: f64 = 1.0;
 /// Standard deviations of a contact's place that the way from a node to the next has at least, where the contact touches that node. Smaller: contacts of hardly loaded
 /// rods, which may be anywhere; larger: the ends of what is touched are not known.
 const SURE: f64 = 3.0;
+/// Force of the contacts that touch a node, standard deviations, all together. Its share of the noise is that of the lever of the moment: less, and the contact
+/// may as well be elsewhere on the rod, or not be there.
+const LOADED: f64 = 5.0;
 
 /// What is known of the contour at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +87,8 @@ impl<R: PhysicalRod> Fit<'_, R> {
     ) -> Vec<Vec<Knowledge>> {
         let (curve, length) = (&model.curve, self.rod.units().length);
         let swept = self.swept(model, labels);
-        let touched = Self::touched(model, rates, covariance);
+        let by_noise = self.by_errors(covariance).map_or_else(|| covariance.clone(), |shared| covariance - shared);
+        let touched = self.touched(model, rates, &by_noise);
         let of_chain = |chain: Vec<(usize, Node)>| {
             let (numbers, nodes): (Vec<usize>, Vec<Node>) = chain.into_iter().unzip();
             let of_node = |(k, node): (usize, &usize)| match touched.contains(node) {
@@ -96,16 +100,25 @@ impl<R: PhysicalRod> Fit<'_, R> {
         curve.chains().map(|chain| of_chain(chain.collect())).collect()
     }
 
-    /// The nodes that contacts touch whose place is known: a hardly loaded rod is straight, and does not tell where along it that is.
-    pub fn touched(model: &Model, rates: &[Option<Vec<ContactRates>>], covariance: &DMatrix<f64>) -> BTreeSet<usize> {
+    /// The nodes that contacts touch whose place is known: a hardly loaded rod is straight, and does not tell where along it that is. `by_noise` is the
+    /// covariance of the unknowns without errors that all samples share: these move all places alike.
+    pub fn touched(
+        &self,
+        model: &Model,
+        rates: &[Option<Vec<ContactRates>>],
+        by_noise: &DMatrix<f64>,
+    ) -> BTreeSet<usize> {
         let curve = &model.curve;
         let (mut sure, mut likely) = (BTreeSet::new(), BTreeSet::new());
+        let mut load = BTreeMap::new();
         for (block, state) in
             model.states.iter().enumerate().filter_map(|(block, state)| Some((block, state.as_ref()?)))
         {
             for (contact, by) in state.contacts.iter().zip(rates[block].iter().flatten()) {
                 let Some(node) = curve.node_at(contact) else { continue };
-                let own = by.of_point(covariance);
+                let noise = self.blocks.blocks[block].sigma.xy().mean() * self.rod.units().force;
+                *load.entry(node).or_insert(0.0) += (contact.force / noise).powi(2);
+                let own = by.of_point(by_noise);
                 let (sigma, way) = (own.symmetric_eigenvalues().max().sqrt(), curve.spacing(node));
                 if sigma < way {
                     likely.insert(node);
@@ -115,6 +128,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 }
             }
         }
+        sure.retain(|node| load[node] > LOADED * LOADED);
         // those that are likely count between sure ones
         let mut touched = BTreeSet::new();
         for chain in curve.chains() {
