@@ -151,7 +151,7 @@ fn verdict(found: &[Reconstructed]) -> ExitCode {
         for finding in found.warnings() {
             warn(&format!("warning: {file}: {finding}\n"));
         }
-        if let Some(doubt) = found.doubt() {
+        for doubt in found.doubts() {
             warn(&format!("warning: {file}: {doubt}\n"));
         }
         if let Some(why) = found.contradiction() {

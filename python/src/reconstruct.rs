@@ -440,7 +440,7 @@ fn told(py: Python<'_>, rod: &PyRod, found: Reconstructed, settings: Settings) -
         let findings: Vec<_> = found.findings().map(ToString::to_string).collect();
         doubts.push(format!("recording, units and rod do not fit: {}", findings.join("; ")));
     }
-    doubts.extend(found.contradiction().into_iter().chain(found.doubt()));
+    doubts.extend(found.contradiction().into_iter().chain(found.doubts()));
     doubts.iter().try_for_each(|text| warn(py, text))?;
     let rod = rod.clone();
     Ok(PyReconstruction { rod, found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })

@@ -74,7 +74,8 @@ impl Reconstructed {
             Some(uniform) => of_uniform(uniform, &samples, settings),
             None => of_varying(&rod, &samples, settings),
         };
-        let (found, check) = found.map_err(|source| ReconstructionError { file: recording.file.clone(), source })?;
+        let (found, check, explanations) =
+            found.map_err(|source| ReconstructionError { file: recording.file.clone(), source })?;
         let contour = found.contour(&Assembly::default());
         let name = recording.file.file_stem().unwrap_or(recording.file.as_os_str()).to_string_lossy().into_owned();
         Ok(Self {
@@ -86,7 +87,7 @@ impl Reconstructed {
             found,
             contour,
             check,
-            explanations: Vec::new(),
+            explanations,
             fit: None,
             several_for_one: Vec::new(),
             comparison: None,
@@ -94,10 +95,10 @@ impl Reconstructed {
     }
 
     /// Fits a contour to the whole recording, from the result on: whether a rod past one contour gives these reactions. Where one does, labels,
-    /// points and shared errors are its own from now on. Nothing is fitted where signs, units or rod are wrong. `settings` are those of the
-    /// reconstruction.
+    /// points and shared errors are its own from now on. Nothing is fitted where a mistake in signs, units or rod explains the recording. `settings`
+    /// are those of the reconstruction.
     pub fn fit(&mut self, settings: &Settings) {
-        if self.check.findings.iter().any(Finding::is_gross) {
+        if self.check.findings.iter().any(Finding::is_gross) && is_mistake(&self.explanations) {
             return;
         }
         let fit = match self.rod.uniform() {
@@ -114,6 +115,7 @@ impl Reconstructed {
         {
             let before: Vec<Label> = self.found.readings.iter().map(|reading| reading.label).collect();
             self.found.adopt(fit, settings);
+            self.explanations.clear();
             let is_one = |label: Label| !label.several() && label != Label::Free;
             let after = self.found.readings.iter().map(|reading| reading.label);
             let several = before.into_iter().zip(after).enumerate();
@@ -160,7 +162,7 @@ impl Reconstructed {
             finding.is_misfit()
                 && !matches!(finding, Finding::Coarse { .. } | Finding::NoFreeStretch | Finding::Frozen { .. })
         };
-        if self.check.findings.iter().any(may_be) {
+        if self.explanations.is_empty() && self.check.findings.iter().any(may_be) {
             self.explanations = explanations(rod, &self.samples, settings, &self.check.findings);
         }
     }
@@ -218,8 +220,13 @@ impl Reconstructed {
     }
 }
 
-/// A reconstruction, and the check of it.
-type Checked = Result<(Reconstruction, Plausibility), ReconstructError>;
+/// A reconstruction, the check of it, and what explains gross findings of that; nothing without such.
+type Checked = Result<(Reconstruction, Plausibility, Vec<(Explanation, f64)>), ReconstructError>;
+
+/// Whether a mistake in signs, units or rod explains the recording best, or nothing does.
+fn is_mistake(explanations: &[(Explanation, f64)]) -> bool {
+    explanations.first().is_none_or(|first| matches!(first.0, Explanation::Mistake(_)))
+}
 
 /// With the errors that all samples share taken off, unless gross mistakes leave no sense in them.
 fn of_uniform(rod: &Rod, samples: &[Sample], settings: &Settings) -> Checked {
@@ -234,18 +241,22 @@ fn of_uniform(rod: &Rod, samples: &[Sample], settings: &Settings) -> Checked {
         let (corrected, used) = found.corrected(rod, samples);
         check = plausibility(&corrected, &used);
     }
+    let mut causes = Vec::new();
     if is_gross(&check) || is_gross(&raw) && found.findings().iter().any(Finding::is_misfit) {
-        // small errors mean nothing where units, signs or rod are wrong
-        let as_is = Settings { budget: Some(Budget::NONE), ..*settings };
-        (found, check) = (reconstruct_passes(rod, samples, &as_is)?, raw);
+        causes = explanations(rod, samples, settings, &raw.findings);
+        if is_mistake(&causes) {
+            // small errors mean nothing where units, signs or rod are wrong
+            let as_is = Settings { budget: Some(Budget::NONE), ..*settings };
+            (found, check) = (reconstruct_passes(rod, samples, &as_is)?, raw);
+        }
     }
     check.findings.extend(found.findings());
-    Ok((found, check))
+    Ok((found, check, causes))
 }
 
 /// With the samples as they are.
 fn of_varying(rod: &AnyRod, samples: &[Sample], settings: &Settings) -> Checked {
     let found = reconstruct_general(rod, samples, settings)?;
     let check = Plausibility { findings: found.findings(), ..Plausibility::default() };
-    Ok((found, check))
+    Ok((found, check, Vec::new()))
 }

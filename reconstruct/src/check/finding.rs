@@ -218,6 +218,21 @@ impl Finding {
         }
     }
 
+    /// Whether it is of the line of tangential contacts, or of what the stiffness by that line explains.
+    pub fn is_of_line(&self) -> bool {
+        matches!(
+            self,
+            Self::Sign
+                | Self::Units { .. }
+                | Self::MomentSign
+                | Self::Stiffness { .. }
+                | Self::Length { .. }
+                | Self::Intercept { .. }
+                | Self::MomentOffset { .. }
+                | Self::Unexplained { .. }
+        )
+    }
+
     /// Whether a part of the result is missing or may be wrong, though recording, units and rod may fit together.
     pub fn is_warning(&self) -> bool {
         matches!(self, Self::Uncertain { .. } | Self::Frozen { .. } | Self::KinksWithin { .. })

@@ -97,7 +97,8 @@ pub fn explanations(rod: &Rod, samples: &[Sample], settings: &Settings, finds: &
     likely.sort_by(|a, b| b.1.total_cmp(&a.1));
     let again = likely.into_iter().take(KEPT).filter_map(|(mistake, _)| log(mistake, &thin));
     let mut found: Vec<(Explanation, f64)> = again.map(|(mistake, log)| (Explanation::Mistake(mistake), log)).collect();
-    if let Some(calibration) = interpreted(rod, &thin, &settings) {
+    // as it is, whatever its line: that of a recording with few tangential contacts or much noise may be anything
+    if let Some((calibration, ..)) = of_longest(rod, &thin, &settings) {
         let mut parts = candidates(&calibration);
         let tare = parts.iter().find(|part| part.0 == SourceCandidate::Tare).map(|part| part.1);
         parts.retain(|part| part.0 == SourceCandidate::Tare || tare.is_none_or(|tare| part.1 > tare + STRONG));
@@ -141,12 +142,22 @@ fn thinned(samples: &[Sample], most: usize) -> Vec<Sample> {
     samples.iter().step_by(samples.len().div_ceil(most).max(1)).copied().collect()
 }
 
-/// What the longest pass of a recording says of the errors that its samples share; none where units or signs are impossible.
+/// What the longest pass of a recording says of the errors that its samples share; none where the line of tangential contacts has units or signs
+/// that are impossible, with the errors and without.
 fn interpreted(rod: &Rod, samples: &[Sample], settings: &Settings) -> Option<Calibration> {
-    let is_gross = |rod: &Rod, samples: &[Sample], friction: f64| {
+    let (calibration, part, friction) = of_longest(rod, samples, settings)?;
+    let is_gross = |rod: &Rod, samples: &[Sample]| {
         let check = plausibility_with_friction(rod, &thinned(samples, MOST_CHECKED), |_| friction);
         check.findings.iter().any(Finding::is_gross)
     };
+    // a bias may look like a wrong sign
+    let is_possible = !is_gross(rod, samples)
+        || calibration.is_applied() && !is_gross(&calibration.rod(rod), &calibration.corrected(rod, part));
+    is_possible.then_some(calibration)
+}
+
+/// What the longest pass of a recording says of the errors that its samples share, its samples, and their friction.
+fn of_longest<'a>(rod: &Rod, samples: &'a [Sample], settings: &Settings) -> Option<(Calibration, &'a [Sample], f64)> {
     let longest = passes(rod, samples).into_iter().max_by_key(|pass| pass.len())?;
     let part = samples.get(longest)?;
     let settings = Settings { noise: Some(noise(part, settings)), ..*settings };
@@ -155,18 +166,7 @@ fn interpreted(rod: &Rod, samples: &[Sample], settings: &Settings) -> Option<Cal
     let scan = if rubs { scan.rough(rod, &settings) } else { scan.smooth(rod, &settings) };
     let (track, calibration) = scan.ok().map(|scan| (scan.track, scan.calibration))?;
     let calibration = calibration?.1;
-    // a bias may look like a wrong sign
-    let friction = track.friction;
-    let corrected = || (calibration.rod(rod), calibration.corrected(rod, part));
-    if is_gross(rod, samples, friction)
-        && (!calibration.is_applied() || {
-            let (rod, samples) = corrected();
-            is_gross(&rod, &samples, friction)
-        })
-    {
-        return None;
-    }
-    calibration.log_likelihood.is_finite().then_some(calibration)
+    calibration.log_likelihood.is_finite().then_some((calibration, part, track.friction))
 }
 
 /// The noise of the channels, at least [`LEAST_NOISE`].
