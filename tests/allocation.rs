@@ -13,7 +13,7 @@ use vibrissa::rod::{
     Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Reactions, Section, Support, Supports, Uniform, advance,
     advance_with_sensitivities, solve, walk,
 };
-use vibrissa::{Label, Pose, Rod, Sample, State};
+use vibrissa::{Label, Pose, Rod, Sample, State, Sweep};
 
 #[test]
 fn the_counter_counts() {
@@ -110,6 +110,20 @@ fn warm_started_solves_do_not_allocate() {
         *solved.entry(before.phase().to_string()).or_default() += 1;
     }
     assert_eq!(solved.keys().collect::<Vec<_>>(), ["A", "B", "BA", "BB"], "{solved:?}");
+}
+
+#[test]
+fn a_further_state_of_a_sweep_allocates_its_contacts_only() {
+    let scene = Scene::paper(0.0, 0.0, 0.4);
+    let (rod, contour) = (scene.rod(), scene.bumps.contour().unwrap());
+    let allocations = |states: u64| {
+        let path = scene.path();
+        let step = path.length() / (states - 1) as f64;
+        let sweep = Sweep::new(&rod, &contour, path, step).unwrap();
+        measure(|| sweep.for_each(|item| drop(black_box(item.unwrap())))).count_total
+    };
+    let further = allocations(1501) - allocations(501);
+    assert!(further <= 1000, "{further}");
 }
 
 #[test]

@@ -3,9 +3,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::hint::black_box;
-use vibrissa::contact::{Contact, ContactKind, Equilibrium};
+use vibrissa::contact::{Contact, ContactKind, Equilibrium, Outcome};
 use vibrissa::rod::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Support, Supports, Uniform, solve};
-use vibrissa::{CircularArc, Composite, Pose, Rod, equilibrium};
+use vibrissa::{CircularArc, ClampPath, Composite, Pose, Rod, Sweep, equilibrium};
 
 /// Radius of the discs, and how far each pushes the rod out of its straight line.
 const RADIUS: f64 = 0.02;
@@ -88,6 +88,14 @@ impl Warm {
             assert!(solve(&problem, u, &NewtonOptions::default(), workspace).status.is_solved());
         }
         times
+    }
+
+    /// The sweep that goes on from the solution as far again, with so many states.
+    pub fn sweep(&self, rod: &Rod, states: usize) -> Outcome {
+        let state = self.equilibrium(rod).state;
+        let path = ClampPath::new(clamp(MOVED), clamp(2.0 * MOVED)).unwrap();
+        let step = path.length() / (states - 1) as f64;
+        Sweep::from_state(rod, &self.objects, &state, path, step).unwrap().run()
     }
 
     /// The same as an equilibrium with its certificate: solved, looked at all along, judged for stability.

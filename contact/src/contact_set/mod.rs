@@ -267,8 +267,11 @@ impl Configuration {
     }
 }
 
+/// Segments of a rod with four contacts and a roller. More are on the heap.
+pub(crate) const USUAL_SEGMENTS: usize = 6;
+
 /// The segments of a rod.
-pub(crate) type Segments = SmallVec<[Segment; 9]>;
+pub(crate) type Segments = SmallVec<[Segment; USUAL_SEGMENTS]>;
 
 /// The hold of a rod that lies on a contour. `angle` is its slope angle less the contour's, near a multiple of pi.
 pub(crate) fn tangent_hold(angle: f64) -> Hold {

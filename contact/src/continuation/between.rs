@@ -50,11 +50,25 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         }
         here.set_tau(tau);
         let scan = self.scan(&here);
-        let mut holds = scan.is_outside();
-        breaks(&self.corrector.setup.world, &here, &scan.crossings, |_| holds = false);
-        let stable = holds && (self.stays_stable(from, &here, &scan) || self.is_stable(&here, &scan));
+        let stable = self.keeps_contacts(&here, &scan) && self.keeps_stability(from, &here, &scan);
         let quality = if here.count() == 0 { Quality::FREE } else { Quality::new(&report, true) };
-        stable.then(|| state(&self.corrector.setup, &here, &scan, quality))
+        let state = stable.then(|| state(&self.corrector.setup, &here, &scan, quality));
+        self.scanner.recycle(scan);
+        state
+    }
+
+    /// Whether the rod is outside of all objects, and no condition of its contact set is violated.
+    #[inline(never)]
+    fn keeps_contacts(&self, here: &Configuration, scan: &Scan) -> bool {
+        let mut holds = scan.is_outside();
+        breaks(&self.corrector.setup.world, here, &scan.crossings, |_| holds = false);
+        holds
+    }
+
+    /// Whether the equilibrium `here` is stable, by the start of its step or by itself.
+    #[inline(never)]
+    fn keeps_stability(&mut self, from: &Point, here: &Configuration, scan: &Scan) -> bool {
+        self.stays_stable(from, here, scan) || self.is_stable(here, scan)
     }
 
     /// Whether the equilibrium `here`, of which the corrector still holds the Jacobian, is stable because the start of its step is. Between the
@@ -119,6 +133,7 @@ impl Way<'_> {
     }
 
     /// The point at the pose `tau`. None where the step has no length.
+    #[inline(never)]
     fn at_pose(&self, tau: f64) -> Option<Configuration> {
         let cubic = self.cubic(self.to.z.len() - 1);
         let (mut low, mut high) = (0.0, self.length);

@@ -164,6 +164,7 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
         self.solve(configuration, condition, LIMITS.step.most_iterations)
     }
 
+    #[inline(never)]
     fn solve(&mut self, configuration: &mut Configuration, condition: Condition<'_>, iterations: u32) -> SolveReport {
         let Configuration { contacts, z } = configuration;
         let system = bordered_system(&self.setup, contacts, condition, z.len());

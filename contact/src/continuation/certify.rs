@@ -30,6 +30,7 @@ impl Quality {
 }
 
 /// The state of the rod in `configuration`, which was scanned.
+#[inline(never)]
 pub(crate) fn state<R: PhysicalRod>(
     setup: &Setup<'_, R>,
     configuration: &Configuration,
@@ -43,7 +44,7 @@ pub(crate) fn state<R: PhysicalRod>(
     let clamp = setup.clamp(configuration.tau());
     let Pose { x, y, phi } = clamp.pose();
     // what was scanned is this configuration
-    let shape = Elastica::of_segments(rod.model().clone(), rod.units(), scan.segments().to_vec());
+    let shape = Elastica::of_segments(rod.model().clone(), rod.units(), scan.segments().iter().copied());
     let mut contacts = Vec::with_capacity(n);
     for j in 0..n {
         let at = supports.support(j, configuration.t(j));

@@ -101,12 +101,21 @@ impl Scan {
 pub(crate) struct Scanner {
     prover: Prover,
     judge: Judge,
+    /// Of the points of a shape.
+    memory: Vec<Node>,
 }
 
 impl Scanner {
     /// Looks at the whole rod in `configuration`.
+    #[inline(never)]
     pub fn scan<R: PhysicalRod>(&mut self, setup: &Setup<'_, R>, configuration: &Configuration) -> Scan {
-        self.scan_shape(Shape::of(setup, configuration), setup, configuration, GAP_TOLERANCE)
+        let shape = Shape::of(std::mem::take(&mut self.memory), setup, configuration);
+        self.scan_shape(shape, setup, configuration, GAP_TOLERANCE)
+    }
+
+    /// Keeps the memory of a scan that has been of use, for the next one.
+    pub fn recycle(&mut self, scan: Scan) {
+        self.memory = scan.shape.nodes;
     }
 
     /// The same of a rod at a transition, where another contact, about to form, may be deeper.

@@ -1,6 +1,6 @@
 //! The rod's shape in a configuration: points along it, close enough for all that is asked about them.
 
-use crate::contact_set::{Configuration, Segments};
+use crate::contact_set::{Configuration, Segments, USUAL_SEGMENTS};
 use crate::scene::Setup;
 use crate::scene::rod::{self, Segment, lead};
 use rod_contours::Bounds;
@@ -53,9 +53,9 @@ pub(crate) struct Shape {
     pub segments: Segments,
     pub nodes: Vec<Node>,
     /// Index of the first point of each segment: beyond the first segment, of the contact there.
-    firsts: SmallVec<[usize; 9]>,
+    firsts: SmallVec<[usize; USUAL_SEGMENTS]>,
     /// Size of the force on each segment.
-    forces: SmallVec<[f64; 9]>,
+    forces: SmallVec<[f64; USUAL_SEGMENTS]>,
     /// Number of segments between the clamp and a roller: 1 where a rod under load runs through one, else 0.
     lead: usize,
 }
@@ -76,12 +76,12 @@ impl Shape {
         }
     }
 
-    /// The shape of the rod in `configuration`.
-    pub fn of<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> Self {
+    /// The shape of the rod in `configuration`, in the memory of the points of another one.
+    pub fn of<R: PhysicalRod>(memory: Vec<Node>, setup: &Setup<'_, R>, configuration: &Configuration) -> Self {
         let rod = setup.rod.model();
         let segments = configuration.segments(setup);
         let lead = lead(&segments, configuration.count());
-        Self::through(rod, segments, lead, |from, to, force, _| {
+        Self::through(memory, rod, segments, lead, |from, to, force, _| {
             (((to - from) / spacing(rod, (from, to), force, SPACING)).ceil() as usize).max(1)
         })
     }
@@ -89,7 +89,8 @@ impl Shape {
     /// The same with points so close that the chords between them, or an integral by Simpson's rule, may stand for the rod: an odd
     /// number of them on each segment.
     pub fn refine(&self, rod: &impl RodModel) -> Self {
-        Self::through(rod, self.segments.clone(), self.lead, |from, to, force, loaded| {
+        let memory = Vec::with_capacity(USUAL);
+        Self::through(memory, rod, self.segments.clone(), self.lead, |from, to, force, loaded| {
             let spacing = spacing(rod, (from, to), force, FINE).min(if from < loaded { loaded / LOADED } else { FINE });
             2 * ((0.5 * (to - from) / spacing).ceil() as usize).max(FEWEST / 2)
         })
@@ -98,14 +99,16 @@ impl Shape {
     /// Points along `segments`: on each one, by its arc lengths, its force and the arc length of the last contact, so many steps. The
     /// free end of a rod that is straight at rest is one.
     fn through(
+        mut nodes: Vec<Node>,
         rod: &impl RodModel,
         segments: Segments,
         lead: usize,
         steps: impl Fn(f64, f64, f64, f64) -> usize,
     ) -> Self {
-        let mut nodes = Vec::with_capacity(USUAL);
+        nodes.clear();
         let mut firsts = SmallVec::new();
-        let forces: SmallVec<[f64; 9]> = segments.iter().map(|segment| segment.a.hypot(segment.b)).collect();
+        let forces: SmallVec<[f64; USUAL_SEGMENTS]> =
+            segments.iter().map(|segment| segment.a.hypot(segment.b)).collect();
         let loaded = segments.last().map_or(0.0, |free| free.s);
         for (i, segment) in segments.iter().enumerate() {
             let next = segments.get(i + 1);

@@ -502,7 +502,8 @@ impl<'a> World<'a> {
         let (object, own) = self.at(stretch);
         let t = self.within(stretch, t);
         let here = self.support(stretch, t);
-        let border = self.border(stretch, ahead > 0.0);
+        // a curve that is smooth where it closes has no border there
+        let border = if self.is_loop(stretch) { ahead * f64::INFINITY } else { self.border(stretch, ahead > 0.0) };
         let (sin, cos) = here.alpha.sin_cos();
         let mut reach = AHEAD * length / here.speed;
         if outward && here.turning > 0.0 {
@@ -528,8 +529,9 @@ impl<'a> World<'a> {
                 continue;
             }
             let unit = self.unit((object, own));
-            let range = Range { from: t.min(to) * unit, to: t.max(to) * unit };
-            let (least, largest) = self.curvature(object, own, range);
+            let (range, whole) = (Range { from: t.min(to) * unit, to: t.max(to) * unit }, object.own_range(own));
+            let beyond = self.is_loop(stretch) && !whole.contains(to * unit);
+            let (least, largest) = self.curvature(object, own, if beyond { whole } else { range });
             // where it bends both ways the ends do not tell the largest turn
             if least < 0.0 && largest > 0.0 && 2.0 * reach * here.speed * least.abs().max(largest) > most {
                 return None;

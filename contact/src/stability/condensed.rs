@@ -203,7 +203,7 @@ mod tests {
             };
             configuration.insert(j, ActiveContact::smooth(stretch, hold), [foot.t, force, third]);
         }
-        let shape = Shape::of(&setup, &configuration);
+        let shape = Shape::of(Vec::new(), &setup, &configuration);
         let miss = (shape.segments[0].start.x - at.x).hypot(shape.segments[0].start.y - at.y);
         assert!(miss < 1e-12, "{miss}");
         let modes = Judge::default().is_positive_by_modes(&setup, &configuration, &shape);

@@ -530,7 +530,7 @@ mod tests {
         let setup = Setup::new(rod, contour.as_ref(), path);
         let mut column = Configuration::free(0.0);
         column.insert(0, ActiveContact::smooth(0, Hold::Tip), [0.0, f, 0.5 * PI]);
-        let shape = Shape::of(&setup, &column);
+        let shape = Shape::of(Vec::new(), &setup, &column);
         let by_modes = Judge::default().is_positive_by_modes(&setup, &column, &shape);
         assert!(by_modes || !condensed::is_positive(&setup, &column, &shape));
         Judge::default().is_stable(&setup, &column, &shape)

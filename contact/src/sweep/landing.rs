@@ -3,6 +3,7 @@
 use super::Sweep;
 use crate::contact_set::edit::{across_corner, beyond_borders, beyond_corner, off_corner};
 use crate::contact_set::{ActiveContact, Configuration, Unknown};
+use crate::continuation::branch::Corrector;
 use crate::continuation::certify::energy;
 use crate::continuation::inflection::is_at_inflection;
 use crate::continuation::stepper::Stepper;
@@ -11,7 +12,7 @@ use crate::continuation::{Point, Seen};
 use crate::error::StopReason;
 use crate::event::EventKind;
 use crate::friction::{UNLOADED, without_unloaded};
-use crate::gap::GAP_TOLERANCE;
+use crate::gap::{GAP_TOLERANCE, Scanner};
 use crate::limits::LIMITS;
 use crate::path::ClampPath;
 use crate::scene::Setup;
@@ -53,7 +54,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
             self.reached = here.tau();
             return Err(StopReason::Jump);
         }
-        if let Some(landed) = self.descend(here, &last) {
+        if let Some(landed) = self.buckle(here, &last).or_else(|| self.descend(here, &last)) {
             return Ok(if here.count() == 0 {
                 self.land_at_first_contact(last, landed)
             } else {
@@ -71,6 +72,30 @@ impl<R: PhysicalRod> Sweep<'_, R> {
         } else {
             StopReason::NoLanding
         })
+    }
+
+    /// The landing of a straight rod that is pushed along its axis: just behind the pose, where it has buckled. At the pose itself the branches of
+    /// the straight and of the buckled rod cross, and rounding decides to which of them a solution belongs and where its tangent leads.
+    fn buckle(&mut self, here: &Configuration, last: &EndedBranch) -> Option<Point> {
+        if !self.is_column(here, last.energy) {
+            return None;
+        }
+        LIMITS.snap.ahead.into_iter().find_map(|kick| {
+            let Stepper { corrector, scanner, .. } = &mut self.stepper;
+            let mut near = descent(corrector, scanner, here, kick).1?.configuration;
+            near.set_tau(here.tau() + LIMITS.probe.way);
+            let landed = settle(corrector, scanner, near)?;
+            let pushed = self.end_with_clamp_work(last, &landed.configuration);
+            let buckled = !self.is_column(&landed.configuration, energy(self.setup(), &landed.configuration));
+            if buckled { self.continue_from_landing(landed, &pushed) } else { None }
+        })
+    }
+
+    /// Whether a rod with this energy (J) bears a force at its tip without being bent: a force f across it has an energy of f^2 / 6.
+    fn is_column(&self, configuration: &Configuration, energy: f64) -> bool {
+        let bears =
+            configuration.count() == 1 && configuration.is_tip(0) && configuration.force(0) > LIMITS.snap.flat_force;
+        bears && energy < LIMITS.snap.energy_rounding * self.setup().rod.units().energy
     }
 
     /// The landing by descent of the energy from `here`, which is `last` without friction, and by what is found beside the descent.
@@ -281,10 +306,7 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     /// can be.
     fn landing(&mut self, last: &Configuration, tau: f64, kick: f64) -> Landing {
         let Stepper { corrector, scanner, .. } = &mut self.stepper;
-        let mut chain = Chain::of(&corrector.setup, last, tau + kick);
-        // head-on, a straight rod gives to either side
-        chain.bend_if_straight(LIMITS.snap.bend);
-        let ahead = settle_chain(&mut chain, corrector, scanner, tau + kick, |_, _| true);
+        let (mut chain, ahead) = descent(corrector, scanner, last, kick);
         let elsewhere = |world: &World<'_>, found: &Seen| !found.configuration.is_same_equilibrium(last, world);
         let back = ahead.as_ref().and_then(|ahead| {
             let mut back = ahead.configuration.clone();
@@ -344,6 +366,21 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     pub(super) fn if_energy_falls(&self, before: f64, point: Option<Point>) -> Option<Point> {
         point.filter(|point| self.may_fall(before, &point.configuration))
     }
+}
+
+/// The chain that has come to rest from `last` with its clamp moved on by `kick`, and the equilibrium next to it.
+fn descent<R: PhysicalRod>(
+    corrector: &mut Corrector<'_, R>,
+    scanner: &mut Scanner,
+    last: &Configuration,
+    kick: f64,
+) -> (Chain, Option<Seen>) {
+    let tau = last.tau() + kick;
+    let mut chain = Chain::of(&corrector.setup, last, tau);
+    // head-on, a straight rod gives to either side
+    chain.bend_if_straight(LIMITS.snap.bend);
+    let ahead = settle_chain(&mut chain, corrector, scanner, tau, |_, _| true);
+    (chain, ahead)
 }
 
 /// The same contacts without a force along the contour. The coefficients of friction of the objects stay.

@@ -20,6 +20,7 @@ use crate::segment::{Section, Segment};
 use crate::solve::Root;
 use crate::units::Units;
 use loads::{clamp_cut, clamp_moment, forces_ahead, march};
+use smallvec::SmallVec;
 
 /// The elastica of a clamped rod under n point forces, segment by segment: of a uniform one by the closed form, of another
 /// [`RodModel`] by what that offers.
@@ -30,8 +31,8 @@ use loads::{clamp_cut, clamp_moment, forces_ahead, march};
 pub struct Elastica<M = Uniform> {
     rod: M,
     units: Units,
-    /// The last one is free.
-    segments: Vec<Segment<Cut>>,
+    /// The last one is free. Those of five loads are on the stack.
+    segments: SmallVec<[Segment<Cut>; 6]>,
 }
 
 impl Elastica {
@@ -73,8 +74,8 @@ impl Elastica {
 impl<M: RodModel> Elastica<M> {
     /// The elastica of dimensionless segments that are known, as [`MultiPoint::cuts`](crate::MultiPoint::cuts) gives them: at least
     /// one, the last one free.
-    pub fn of_segments(rod: M, units: Units, segments: Vec<Segment<Cut>>) -> Self {
-        Self { rod, units, segments }
+    pub fn of_segments(rod: M, units: Units, segments: impl IntoIterator<Item = Segment<Cut>>) -> Self {
+        Self { rod, units, segments: segments.into_iter().collect() }
     }
 
     /// [`from_clamp`](Elastica::from_clamp) of a rod of any model.
@@ -86,7 +87,7 @@ impl<M: RodModel> Elastica<M> {
         finite("m0z", m0z)?;
         let clamp = clamp_cut(units, pose, -m0z / units.moment);
         clamp.check()?;
-        let mut segments = Vec::with_capacity(loads.len() + 1);
+        let mut segments = SmallVec::new();
         march(&rod, clamp, &forces, |s, start, a, b| segments.push(Segment { s, start, a, b }))?;
         Ok(Self { rod, units, segments })
     }

@@ -6,7 +6,7 @@
 mod bend;
 
 use super::Grip;
-use super::multipoint::{Hold, MultiPoint, Node, Supports, friction_size, natural_sizes, reactions};
+use super::multipoint::{Hold, MultiPoint, Node, Nodes, Supports, friction_size, natural_sizes, reactions};
 use crate::clamp::{Clamp, ClampLaw, Passage, product};
 use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::pose::{Pose, Reactions};
@@ -136,7 +136,8 @@ struct NodeRate {
 impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     /// The problem to first order about the solution `u`: one Jacobian, one inverse.
     pub fn linearise(&self, u: &[f64]) -> Linearisation {
-        let nodes = self.nodes(u);
+        let mut nodes = Nodes::new();
+        self.nodes(u, &mut nodes);
         // one more unknown for each that sticks
         let (count, size) = (nodes.len(), u.len());
         let mut residual = Vector::from_elem(0.0, size);

@@ -171,12 +171,12 @@ pub(crate) fn friction_size(friction: f64) -> f64 {
 pub(crate) type Nodes = SmallVec<[Node; 8]>;
 
 impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
+    /// Appends the supports, each with what is ahead of it.
     #[inline(always)]
-    pub(crate) fn nodes(&self, u: &[f64]) -> Nodes {
+    pub(crate) fn nodes(&self, u: &[f64], nodes: &mut Nodes) {
         let n = self.supports.count();
         let mut tangential = 3 * n;
         // in place, one by one: a list that is handed on is copied, and costs as much as a tenth of a solve
-        let mut nodes = Nodes::new();
         for (j, unknowns) in u.chunks_exact(3).take(n).enumerate() {
             let (t, force, third) = (unknowns[0], unknowns[1], unknowns[2]);
             let at = self.supports.support(j, t);
@@ -201,7 +201,6 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             node.a += ahead.a;
             node.b += ahead.b;
         }
-        nodes
     }
 
     /// Writes the residual (3 a support, and 1 more for each that sticks) and, where asked for, the Jacobian into the leading block of
@@ -210,7 +209,8 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     /// Where the support of the clamp moves, and the unknowns do not, the first three equations change by minus its rate, (x, y, phi):
     /// on springs too, since the reactions follow from the unknowns alone. Only on a pivot the third does not change.
     pub fn evaluate_into(&self, u: &[f64], residual: &mut [f64], jacobian: Option<(&mut [f64], usize)>) {
-        let nodes = self.nodes(u);
+        let mut nodes = Nodes::new();
+        self.nodes(u, &mut nodes);
         match jacobian {
             None => {
                 for j in 0..nodes.len() {
@@ -344,8 +344,9 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
 
     /// The rod at the roller of its clamp. None without one, and where the rod that the unknowns define does not run through it.
     pub fn roller(&self, u: &[f64]) -> Option<RollerHold> {
-        let nodes = self.nodes(u);
         let roller = self.clamp.roller()?;
+        let mut nodes = Nodes::new();
+        self.nodes(u, &mut nodes);
         if nodes.is_empty() { Some(roller.at_rest(self.clamp.pose())) } else { Some(self.passage(&nodes)?.hold) }
     }
 
@@ -438,7 +439,9 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     /// The base of the rod, s = 0: where the clamp is, or, if that gives way, where the rod ends that the unknowns define. Its moment
     /// is -m0z. The slope angle of a rod without supports on a pivot is NaN: nothing determines it.
     pub fn base(&self, u: &[f64]) -> Cut {
-        self.base_of(&self.nodes(u))
+        let mut nodes = Nodes::new();
+        self.nodes(u, &mut nodes);
+        self.base_of(&nodes)
     }
 
     pub(crate) fn base_of(&self, nodes: &Nodes) -> Cut {
@@ -460,7 +463,8 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     /// The segments from the clamp to the last support, and the rod beyond that, which is free of force and moment. A roller, where a
     /// contact holds the rod, parts the first one in two.
     pub fn cuts(&self, u: &[f64], mut visit: impl FnMut(Segment<Cut>)) {
-        let nodes = self.nodes(u);
+        let mut nodes = Nodes::new();
+        self.nodes(u, &mut nodes);
         let (mut s, mut start) = (0.0, self.base_of(&nodes));
         if let Some(Passage { hold: RollerHold { s: roller, at, .. }, force: [a, b], .. }) = self.passage(&nodes) {
             visit(Segment { s, start, a, b });
@@ -497,7 +501,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
     where
         M: Clone,
     {
-        let mut segments = Vec::with_capacity(self.supports.count() + 1);
+        let mut segments = SmallVec::<[Segment<Cut>; 6]>::new();
         self.cuts(u, |segment| segments.push(segment));
         Elastica::of_segments(self.rod.clone(), units, segments)
     }

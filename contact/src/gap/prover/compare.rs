@@ -20,11 +20,12 @@ const AT_ONCE: usize = 6;
 pub(super) struct Touch {
     /// The point of the rod.
     node: usize,
-    foot: RunFoot,
+    stretch: usize,
+    t: f64,
     /// The tangent of a run that bends outwards, which keeps the run behind it; none of another one.
     pub tangent: Option<Line>,
-    /// Whether the rod is parallel to the run.
-    parallel: bool,
+    /// Whether the rod is parallel to the run, which is smooth there: 1 where it runs along it, -1 against it.
+    sense: Option<f64>,
 }
 
 impl<M: RodModel> Search<'_, M> {
@@ -36,21 +37,28 @@ impl<M: RodModel> Search<'_, M> {
             if !(first..=last).contains(&node) || !self.world.is_on_run(self.run, *stretch, t) {
                 return None;
             }
-            let Station { x, y, .. } = self.shape.nodes[node].at;
-            let foot = self.world.foot_at(*stretch, t, x, y);
+            // the rod is at its contact, and, where it is tangential, points along or against the contour
+            let Station { x, y, cos, sin, .. } = self.shape.nodes[node].at;
+            let (sense, normal) = match hold {
+                Hold::Tangent { offset } => {
+                    let sense = 1.0_f64.copysign(offset.cos());
+                    (Some(sense), (sense * sin, -sense * cos))
+                }
+                Hold::Tip => (None, self.world.foot_at(*stretch, t, x, y).normal()),
+            };
             let outward = self.known.lines[self.place].run.is_some_and(|run| run.bend == Bend::Outward);
-            let tangent = outward.then(|| Line { at: (foot.x, foot.y), normal: foot.normal(), outward });
-            let foot = RunFoot { foot, stretch: *stretch, end: None, joint: self.world.is_corner(*stretch) };
-            Some(Touch { node, foot, tangent, parallel: *hold != Hold::Tip })
+            let tangent = outward.then_some(Line { at: (x, y), normal, outward });
+            let joint = self.world.is_corner(*stretch);
+            Some(Touch { node, stretch: *stretch, t, tangent, sense: sense.filter(|_| !joint) })
         };
         configuration.contacts.iter().enumerate().filter_map(touch).collect()
     }
 
     /// How many intervals from number `i` on, up to number `last`, next to a contact with the run, are clear of it.
     pub(super) fn beside_touch(&mut self, touches: &[Touch], i: usize, last: usize) -> Option<usize> {
-        let beside = |touch: &&Touch| touch.parallel && (touch.node == i || touch.node == i + 1);
-        let touch = touches.iter().find(beside)?;
-        let forward = touch.node == i;
+        let beside = |touch: &Touch| Some((touch.node, (touch.stretch, touch.t), touch.sense?));
+        let (node, place, sense) = touches.iter().filter_map(beside).find(|(node, ..)| *node == i || *node == i + 1)?;
+        let forward = node == i;
         let segment = self.shape.nodes[i].segment;
         // as many intervals as there may be, then one alone
         let most = if forward { AT_ONCE.min(self.shape.last_of(segment).min(last) - i) } else { 1 };
@@ -59,16 +67,13 @@ impl<M: RodModel> Search<'_, M> {
             let part = Interval::new(self.rod, from, to, segment, self.shape.force(segment));
             let run = *self.run();
             let bound =
-                self.compare_on_tangent(&run, &touch.foot, &part, forward).filter(|bound| *bound > self.least())?;
+                self.compare_parallel(&run, place, &part, (forward, sense)).filter(|bound| *bound > self.least())?;
             self.note(if forward { i } else { i + count - 1 }, bound, false);
             Some(count)
         })
     }
 
-    /// Lower bound of the gap along an interval that begins (or, where it does not go `forward`, ends) where the rod is
-    /// parallel to the contour. There both are graphs over the common tangent, with d(sin theta)/dx = curvature: while the rod
-    /// bends towards the solid by no more than the contour does, slopes and heights stay in order. Where a contour that bends outwards
-    /// has turned more than the rod does at all, its tangent keeps the two apart from there on.
+    /// [`compare_parallel`](Self::compare_parallel) at a foot, where rod and contour may be parallel.
     pub(super) fn compare_on_tangent(
         &self,
         run: &Run,
@@ -82,18 +87,35 @@ impl<M: RodModel> Search<'_, M> {
         if slope.abs() > PARALLEL || *joint || end.is_some() && foot.gap.abs() > PARALLEL {
             return None;
         }
-        let along = knot.at.cos * cos + knot.at.sin * sin;
-        let sense = along.signum();
+        let sense = 1.0_f64.copysign(knot.at.cos * cos + knot.at.sin * sin);
+        let above = self.compare_parallel(run, (*stretch, foot.t), part, (forward, sense))?;
+        Some(foot.gap - AHEAD * part.length * slope.abs() + above)
+    }
+
+    /// Lower bound of the gap along an interval that begins (or, where it does not go `forward`, ends) where the rod touches the contour and
+    /// is parallel to it, in the same `sense` or against it. There both are graphs over the common tangent, with d(sin theta)/dx =
+    /// curvature: while the rod bends towards the solid by no more than the contour does, slopes and heights stay in order. A contour that
+    /// bends outwards stays behind its tangent, and a rod that bends away from the solid in front of it. Where such a contour has turned
+    /// more than the rod does at all, its tangent keeps the two apart from there on.
+    fn compare_parallel(
+        &self,
+        run: &Run,
+        (stretch, t): (usize, f64),
+        part: &Interval,
+        (forward, sense): (bool, f64),
+    ) -> Option<f64> {
         let bend = (sense * part.curvature.0).max(sense * part.curvature.1);
         if part.bent * part.length > LARGEST_TURN {
             return None;
         }
-        let ahead = if forward { sense } else { -sense };
         let outward = run.bend == Bend::Outward;
+        if outward && bend <= 0.0 {
+            return Some(0.0);
+        }
+        let ahead = if forward { sense } else { -sense };
         let ways = (part.length, bend.max(0.0) * part.length);
-        let least = self.world.curvature_ahead(outward, *stretch, foot.t, ahead, ways, LARGEST_TURN)?;
-        let height = foot.gap - AHEAD * part.length * slope.abs();
-        (bend <= least + SLACK).then_some(height - SLACK * part.length * part.length)
+        let least = self.world.curvature_ahead(outward, stretch, t, ahead, ways, LARGEST_TURN)?;
+        (bend <= least + SLACK).then_some(-SLACK * part.length * part.length)
     }
 
     /// Lower bound of the gap between two feet on a run that bends inwards somewhere: g'' >= -k - q / (1 - q g), where the

@@ -68,9 +68,23 @@ impl<M: RodModel> Search<'_, M> {
         Knot::on(self.rod, &self.shape.segments[node.segment], s)
     }
 
+    /// Whether node `k` is a contact with the object: a point of the contour.
+    fn is_touching(&self, k: usize) -> bool {
+        self.configuration.is_some_and(|configuration| {
+            configuration.contacts.iter().enumerate().any(|(j, held)| {
+                self.shape.node_of(j) == k
+                    && self.world.object(held.stretch) == self.object
+                    && self.world.span(held.stretch).contains(configuration.t(j))
+            })
+        })
+    }
+
     /// Whether a point of the rod is outside of the object: mostly it is in a disc that is known to be.
     fn is_outside(&mut self, k: usize, share: f64) -> bool {
         let (world, object) = (self.world, self.object);
+        if share == 0.0 && self.is_touching(k) {
+            return true;
+        }
         let Knot { at, .. } = self.point(k, share);
         if world.is_far_outside(object, at.x, at.y) {
             return true;

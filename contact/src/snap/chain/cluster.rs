@@ -1,7 +1,7 @@
 //! Loaded nodes of the chain at rest as contacts of the rod.
 
 use super::near::Near;
-use super::{Chain, LINK, LINKS};
+use super::{Chain, LINK, LINKS, Place};
 use crate::contact_set::notch::into_notch;
 use crate::contact_set::{ActiveContact, Configuration, tangent_hold};
 use crate::scene::corner::Corner;
@@ -65,7 +65,7 @@ pub(super) fn clusters(mut forces: Vec<(Near, f64)>) -> Vec<Cluster> {
 
 /// Clusters as contacts, as a guess for the boundary-value problem at `tau`.
 pub(super) fn contacts(chain: &Chain, world: &World<'_>, clusters: &[Cluster], tau: f64) -> Configuration {
-    let (nodes, angles) = chain.nodes();
+    let Place { nodes, angles } = chain.place();
     let mut configuration = Configuration::free(tau);
     for &Cluster { stretch, force, moment, .. } in clusters {
         let middle = moment / force;

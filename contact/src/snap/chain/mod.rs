@@ -27,7 +27,7 @@ use solution::solve;
 const LINKS: usize = 64;
 /// Length of a link.
 const LINK: f64 = 1.0 / LINKS as f64;
-/// Longest way (L) of a node in one step. The gaps are linearised over it.
+/// Longest way (L) of a node in one step where an object is near. The gaps are linearised over it.
 const LONGEST_MOVE: f64 = 0.04;
 /// Gap (L) above which a contour is out of reach of a step.
 const REACH: f64 = 2.0 * LONGEST_MOVE;
@@ -44,12 +44,26 @@ const MOST_STEPS: usize = 400;
 const PATIENCE: usize = 100;
 /// Longest time step of a slow chain.
 const LONGEST_TIME_STEP: f64 = 1e3;
+/// Share of the longest way at which a step aims. Larger: more steps are too long. Smaller: more steps.
+const AIM: f64 = 0.8;
+/// Distance (L) up to which contours are looked for: of a chain that touches something, and of one in free flight. Larger: each look finds more of
+/// many pieces. Smaller: a node is looked at more often.
+const HORIZON: f64 = 2.0 * REACH;
+const FAR: f64 = 0.5;
 /// Time step over the damping time: the unconstrained shape loses half of its bend in a step of 1.
 const TIME_STEP: f64 = 1.0;
 /// Deepest penetration (L) that one step takes back.
 const DEEPEST_PUSH: f64 = 0.03;
 /// Way (L) by which walls give way to a unit of force, where the linearised walls leave no room.
 const YIELDING: f64 = 1e-5;
+
+/// The share of the way to its rest that an unconstrained chain goes in a time step, and the time step in which it goes a share.
+fn share_gone(time_step: f64) -> f64 {
+    time_step / (1.0 + time_step)
+}
+fn time_step_of(share: f64) -> f64 {
+    if share < 1.0 { share / (1.0 - share) } else { f64::INFINITY }
+}
 
 /// Turn (rad) of a joint of a straight chain by rounding.
 const STRAIGHT: f64 = 1e-9;
@@ -59,6 +73,25 @@ type Base = [f64; 3];
 
 /// Ends of the links, the base first.
 type Nodes = [[f64; 2]; LINKS + 1];
+
+/// Where a chain is: ends of the links, and the angle of each link.
+struct Place {
+    nodes: Nodes,
+    angles: [f64; LINKS],
+}
+
+/// A step that was taken.
+struct Taken {
+    /// Longest way of a node, and the largest share of the way that a node may go.
+    way: f64,
+    share: f64,
+    /// Time step, shortened until the way was short enough.
+    time_step: f64,
+    /// Where the chain is then.
+    place: Place,
+    /// The force at each near node.
+    forces: Vec<(Near, f64)>,
+}
 
 /// A chain of links in the contour's world.
 #[derive(Clone, Debug)]
@@ -146,8 +179,8 @@ impl Chain {
         }
     }
 
-    /// Ends of the links, the base first, and the angle of each link.
-    fn nodes(&self) -> (Nodes, [f64; LINKS]) {
+    /// Where it is.
+    fn place(&self) -> Place {
         let Pose { x, y, mut phi } = self.base();
         let (mut nodes, mut angles) = ([[x, y]; LINKS + 1], [0.0; LINKS]);
         for i in 0..LINKS {
@@ -156,23 +189,22 @@ impl Chain {
             let (sin, cos) = phi.sin_cos();
             nodes[i + 1] = [nodes[i][0] + LINK * cos, nodes[i][1] + LINK * sin];
         }
-        (nodes, angles)
+        Place { nodes, angles }
     }
 
-    /// One implicit step under the gaps smaller than `reach`: how far it moved the chain, and the force at each near node.
-    /// None where the programme failed.
+    /// One implicit step under the gaps smaller than `reach`, of at most `time_step`, with the `room` of each node. None where the programme failed.
     fn step(
         &mut self,
         world: &World<'_>,
+        (place, room): (&Place, &mut [f64; LINKS]),
         time_step: f64,
-        reach: f64,
+        (reach, horizon): (f64, f64),
         work: &mut f64,
-    ) -> Option<(f64, Vec<(Near, f64)>)> {
-        let (nodes, angles) = self.nodes();
-        let near = near(world, &nodes, &angles, reach);
+    ) -> Option<Taken> {
+        let near = near(world, place, room, (reach, horizon));
         let (mut time_step, mut push) = (time_step, DEEPEST_PUSH);
         loop {
-            let mut programme = Programme::new(self, &nodes, &near, time_step, push);
+            let mut programme = Programme::new(self, &place.nodes, &near, time_step, push);
             let (change, forces) = match solve(&programme, work) {
                 Some(solved) => solved,
                 None => {
@@ -183,16 +215,30 @@ impl Chain {
             let mut moved = self.clone();
             moved.joints.iter_mut().zip(change.joints).for_each(|(joint, change)| *joint += change);
             moved.given.iter_mut().zip(change.base).for_each(|(given, change)| *given += change);
-            let (after, _) = moved.nodes();
-            let way = nodes.iter().zip(&after).map(|(p, q)| (p[0] - q[0]).hypot(p[1] - q[1])).fold(0.0, f64::max);
-            if way <= 0.75 * reach || time_step < 1e-4 {
+            let after = moved.place();
+            let ways: [f64; LINKS] = std::array::from_fn(|i| {
+                let [[x, y], [after_x, after_y]] = [place.nodes[i + 1], after.nodes[i + 1]];
+                ((after_x - x).powi(2) + (after_y - y).powi(2)).sqrt()
+            });
+            // a node goes no further than its linearised gaps hold, or than to where what was not near could be met
+            let shares = ways.iter().zip(&*room).map(|(way, room)| way / (0.75 * reach).max(room - LINK));
+            let share = shares.fold(0.0, f64::max);
+            if share <= 1.0 || time_step < 1e-4 {
+                room.iter_mut().zip(ways).for_each(|(room, way)| *room -= way);
                 *self = moved;
-                return Some((way, near.into_iter().zip(forces).collect()));
+                let way = ways.into_iter().fold(0.0, f64::max);
+                return Some(Taken {
+                    way,
+                    share,
+                    time_step,
+                    place: after,
+                    forces: near.into_iter().zip(forces).collect(),
+                });
             }
             if reach < REACH {
-                return self.step(world, time_step, REACH, work);
+                return self.step(world, (place, room), time_step, (REACH, horizon), work);
             }
-            time_step *= (LONGEST_MOVE / way).min(0.5);
+            time_step = time_step_of(share_gone(time_step) * (AIM / share).min(0.5));
             push *= 0.5;
         }
     }
@@ -215,21 +261,24 @@ impl Chain {
     fn come_to_rest(&mut self, world: &World<'_>) -> Option<Vec<(Near, f64)>> {
         let (mut time_step, mut reach, mut work) = (TIME_STEP, REACH, MOST_WORK);
         let (mut longest, mut last) = (LONGEST_TIME_STEP, None);
+        let (mut here, mut room, mut horizon) = (self.place(), [0.0; LINKS], HORIZON);
         for taken in 0..MOST_STEPS {
-            let (way, forces) = self.step(world, time_step, reach, &mut work)?;
+            let Taken { way, share, time_step: accepted, place, forces } =
+                self.step(world, (&here, &mut room), time_step, (reach, horizon), &mut work)?;
+            here = place;
             // what a slow chain cannot get to costs it nothing
             reach = (8.0 * way).clamp(0.25 * REACH, REACH);
+            // in free flight it goes as far as there is room
+            horizon = if forces.iter().all(|(_, force)| *force == 0.0) { FAR } else { HORIZON };
             let inside = forces.iter().any(|(near, _)| near.gap < -0.5 * LINK);
             if way < ARRIVED && !inside {
                 return Some(forces);
             }
-            // slow motion is far from everything that could be missed
-            if way < 0.25 * LONGEST_MOVE {
-                time_step = (2.0 * time_step).min(longest);
-            } else if taken > PATIENCE {
-                time_step *= 0.5;
-                longest = time_step;
+            if way >= 0.25 * LONGEST_MOVE && taken > PATIENCE {
+                longest = 0.5 * accepted;
             }
+            // the share of the rest of its way at which the next step would be as long as it may
+            time_step = time_step_of(accepted * AIM / share).min(longest);
             last = Some(forces);
         }
         last

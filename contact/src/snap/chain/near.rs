@@ -1,6 +1,6 @@
 //! What of the chain could meet a contour within a step.
 
-use super::{LINK, LINKS, Nodes, REACH};
+use super::{LINK, LINKS, Place, REACH};
 use crate::scene::corner::Corner;
 use crate::scene::world::{Foot, World};
 use rod_contours::{Bounds, StretchKind};
@@ -24,12 +24,23 @@ pub(super) struct Near {
     pub alpha: f64,
 }
 
-/// What could meet a contour within a step that moves nothing further than `reach`: nodes, and links at corners.
-pub(super) fn near(world: &World<'_>, nodes: &Nodes, angles: &[f64; LINKS], reach: f64) -> Vec<Near> {
+/// What could meet a contour within a step that moves nothing further than `reach`: nodes, and links at corners. `room` is a lower bound of the
+/// distance of each node but the first from all contours, and is renewed, up to `horizon`, where it does not tell that nothing is near.
+pub(super) fn near(
+    world: &World<'_>,
+    Place { nodes, angles }: &Place,
+    room: &mut [f64; LINKS],
+    (reach, horizon): (f64, f64),
+) -> Vec<Near> {
     let mut near: Vec<Near> = Vec::new();
     for (link, &[x, y]) in nodes[1..].iter().enumerate() {
+        // a point of the link is as near as its end, but for the length of the link
+        if room[link] > reach + LINK {
+            continue;
+        }
+        room[link] = horizon;
         let first = near.len();
-        world.parts_near(Bounds::EMPTY.with(x, y).grown(REACH), |part| {
+        world.parts_near(Bounds::EMPTY.with(x, y).grown(horizon), |part| {
             let [from_x, from_y] = nodes[link];
             let start = Section { x: from_x, y: from_y, phi: angles[link], kappa: 0.0 };
             let corner = match world.kind(part.stretch) {
@@ -38,6 +49,7 @@ pub(super) fn near(world: &World<'_>, nodes: &Nodes, angles: &[f64; LINKS], reac
                 StretchKind::Corner { .. } => Some(Corner::new(world, part.stretch)),
                 StretchKind::Piece(_) => {
                     let foot = world.foot_in(part, x, y);
+                    room[link] = room[link].min((x - foot.x).hypot(y - foot.y));
                     near.extend(at_piece(world, part.stretch, &foot, (link + 1, x, y), reach));
                     let close = foot.gap.abs() <= LINK + reach;
                     close.then(|| Corner::of_bend(world, part, start.phi, SHARPEST)).flatten()

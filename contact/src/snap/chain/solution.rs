@@ -2,6 +2,7 @@
 
 use super::programme::{Change, Programme};
 use nalgebra::{Cholesky, DMatrix, DVector};
+use smallvec::SmallVec;
 
 /// Change d of the chain and the force at each near node. None where the walls leave no room, or where the `work` that is left (in
 /// units of the cube of the number of near nodes) does not suffice.
@@ -16,6 +17,8 @@ pub(super) fn solve(programme: &Programme, work: &mut f64) -> Option<(Change, Ve
     Some((Change { joints, base }, forces))
 }
 
+/// Near nodes for which memory is on the stack.
+const FEW: usize = 8;
 /// Limit of rounds of block pivoting, which may cycle.
 const MOST_ROUNDS: usize = 12;
 /// Rounding of a closed gap (L).
@@ -30,27 +33,44 @@ const LEAST_PIVOT: f64 = 1e-10;
 fn solve_by_pivoting(programme: &Programme) -> Option<Vec<f64>> {
     let m = programme.rows.len();
     let mut forces = vec![0.0; m];
-    let mut held: Vec<usize> = Vec::new();
+    let mut held: SmallVec<[usize; FEW]> = SmallVec::new();
+    // the columns of the matrix of all nodes that have been held
+    let mut columns: SmallVec<[(usize, SmallVec<[f64; FEW]>); FEW]> = SmallVec::new();
     for _ in 0..MOST_ROUNDS {
-        let bent = programme.change_by(&forces);
-        let gap = |j: usize| programme.gaps[j] + programme.closing(j, &bent) + programme.yielding * forces[j];
-        let holds = |j: usize| if forces[j] == 0.0 { gap(j) < -CLOSED } else { forces[j] > 0.0 };
-        let next: Vec<usize> = (0..m).filter(|j| holds(*j)).collect();
+        let mut gaps: SmallVec<[f64; FEW]> = SmallVec::from_slice(&programme.gaps);
+        for (k, column) in columns.iter().filter(|(k, _)| forces[*k] != 0.0) {
+            gaps.iter_mut().zip(column).for_each(|(gap, coupling)| *gap += coupling * forces[*k]);
+        }
+        let holds = |j: usize| if forces[j] == 0.0 { gaps[j] < -CLOSED } else { forces[j] > 0.0 };
+        let next: SmallVec<[usize; FEW]> = (0..m).filter(|j| holds(*j)).collect();
         if next == held {
             return Some(forces);
         }
         held = next;
-        let pressing = solve_held(programme, &held)?;
+        for &j in &held {
+            if columns.iter().all(|(k, _)| *k != j) {
+                columns.push((j, (0..m).map(|i| programme.coupling(i, j)).collect()));
+            }
+        }
+        let pressing = solve_held(programme, &held, &columns)?;
         forces.fill(0.0);
         held.iter().zip(pressing.iter()).for_each(|(j, force)| forces[*j] = *force);
     }
     None
 }
 
-/// The forces that close the gaps of the held nodes.
-fn solve_held(programme: &Programme, held: &[usize]) -> Option<DVector<f64>> {
+/// The forces that close the gaps of the held nodes, whose columns are among those given.
+fn solve_held(
+    programme: &Programme,
+    held: &[usize],
+    columns: &[(usize, SmallVec<[f64; FEW]>)],
+) -> Option<DVector<f64>> {
     let n = held.len();
-    let matrix = DMatrix::from_fn(n, n, |i, j| if i < j { 0.0 } else { programme.coupling(held[i], held[j]) });
+    let mut matrix = DMatrix::zeros(n, n);
+    for (mut entries, j) in matrix.column_iter_mut().zip(held) {
+        let (_, column) = columns.iter().find(|(k, _)| k == j)?;
+        entries.iter_mut().zip(held).for_each(|(entry, i)| *entry = column[*i]);
+    }
     let own = matrix.diagonal();
     let factor = matrix.cholesky()?;
     let lost = own.iter().zip(factor.l_dirty().diagonal().iter()).any(|(own, pivot)| pivot * pivot < LEAST_PIVOT * own);
@@ -117,7 +137,7 @@ fn solve_by_active_set(programme: &Programme) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::super::near::Near;
-    use super::super::{Chain, LINKS};
+    use super::super::{Chain, LINKS, Place};
     use super::*;
     use proptest::collection::vec;
     use proptest::prelude::*;
@@ -127,7 +147,7 @@ mod tests {
     /// A straight chain above a wavy floor that has come up to it in places.
     fn programme_above_floor(seed: u32) -> Programme {
         let chain = Chain::at_rest(&Uniform, &Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.02 * f64::from(seed % 7));
-        let (nodes, _) = chain.nodes();
+        let Place { nodes, .. } = chain.place();
         let waves = 2.0 + f64::from(seed) * 0.7;
         let near: Vec<Near> = (1..=LINKS)
             .filter(|i| i % (1 + seed as usize % 3) == 0)
@@ -181,7 +201,7 @@ mod tests {
             yields in any::<bool>(),
         ) {
             let chain = Chain::at_rest(&Uniform, &Pose { x: 0.0, y: 0.0, phi: 0.0 }, bend);
-            let (nodes, _) = chain.nodes();
+            let Place { nodes, .. } = chain.place();
             let wall = |(k, (i, gap, turned)): (usize, (usize, f64, f64))| {
                 let [x, y] = nodes[i];
                 let turned = if both_sides && k % 3 == 0 { turned + PI } else { turned };
@@ -199,7 +219,7 @@ mod tests {
     #[test]
     fn nothing_near_gives_way_freely() {
         let chain = Chain::at_rest(&Uniform, &Pose { x: 0.0, y: 0.0, phi: 0.0 }, 1.0);
-        let (nodes, _) = chain.nodes();
+        let Place { nodes, .. } = chain.place();
         let (change, forces) = solve(&Programme::new(&chain, &nodes, &[], 1.0, 0.03), &mut { f64::INFINITY }).unwrap();
         assert!(forces.is_empty());
         assert!(change.joints.iter().zip(&chain.joints).all(|(change, joint)| (change + 0.5 * joint).abs() < 1e-15));
@@ -208,7 +228,7 @@ mod tests {
     #[test]
     fn walls_without_room_give_way_only_where_they_may() {
         let chain = Chain::at_rest(&Uniform, &Pose { x: 0.0, y: 0.0, phi: 0.0 }, 0.0);
-        let (nodes, _) = chain.nodes();
+        let Place { nodes, .. } = chain.place();
         let [x, y] = nodes[LINKS];
         let wall = |alpha| Near { s: LINKS as f64, x, y, stretch: 0, gap: -0.01, alpha };
         let walls = [wall(0.0), wall(PI)];
