@@ -80,7 +80,7 @@ fn a_stiffness_told_wrong_is_found() {
     assert_eq!(only["calibration"].as_table().unwrap().len(), 1, "{only}");
 
     // a reconstruction starts from what is known
-    let output = vibrissa(path, &["reconstruct", "a.csv", "--rod", "all.toml", "--truth", "O1.toml"]);
+    let output = vibrissa(path, &["reconstruct", "a.csv", "--rod", "all.toml", "--truth", "O1.toml", "--local"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let report: Value = serde_json::from_str(&fs::read_to_string(path.join("out/a/report.json")).unwrap()).unwrap();
     let sources = report["calibration"]["sources"].as_array().unwrap();

@@ -554,8 +554,9 @@ fn the_report_for_people_has_a_table_of_faults_and_the_command() {
 /// A coordinate that stays the same says nothing of its unit: both have one.
 #[test]
 fn both_coordinates_have_one_unit() {
-    for (factor, unit) in [(1e3, "mm"), (1e2, "cm"), (1.0 / 0.0254, "in")] {
-        for y0 in [-0.4, 0.5, 4.0, 15.0] {
+    for (factor, unit, places) in [(1e3, "mm", [-0.4, 4.0]), (1e2, "cm", [0.5, 15.0]), (1.0 / 0.0254, "in", [0.5, 4.0])]
+    {
+        for y0 in places {
             for head in [FOREIGN, OWN] {
                 let text = table(head, ",", |[t, x, _, phi, fx, fy, mz]| [*t, factor * x, y0, *phi, *fx, *fy, *mz]);
                 let (found, status) = looked(&text, ROD);

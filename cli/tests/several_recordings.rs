@@ -59,7 +59,7 @@ fn contours_of_several_recordings_become_one() {
     // the second one 0.4 mm too high: its scan and that of the first are moved onto each other
     let text = fs::read_to_string(dir.join("b/a.csv")).unwrap();
     fs::write(dir.join("b/a.csv"), text.replace(",-0.035,", ",-0.0346,")).unwrap();
-    run(&[&both[..], &["--out", "out", "--align", "90"]].concat(), 0);
+    run(&[&both[..], &["--local", "--out", "out", "--align", "90"]].concat(), 0);
     let offsets = [0, 1].map(|k| record()["scans"][k]["offset"].as_f64().unwrap());
     assert!((offsets[0] - 2e-4).abs() < 1e-5 && (offsets[1] + 2e-4).abs() < 1e-5, "{offsets:?}");
 
@@ -75,7 +75,7 @@ fn contours_of_several_recordings_become_one() {
         cells.join(",") + "\n"
     });
     fs::write(dir.join("b/a.csv"), wrong.collect::<String>()).unwrap();
-    let said = run(&[&both[..], &["--out", "out"]].concat(), 2);
+    let said = run(&[&both[..], &["--local", "--out", "out"]].concat(), 2);
     assert!(said.contains("b/a.csv: ") && said.contains("no, left out"), "{said}");
     assert_eq!(
         (record()["scans"][0]["fits"].as_bool(), record()["scans"][1]["fits"].as_bool()),

@@ -65,9 +65,7 @@ pub use nalgebra;
 #[cfg(feature = "std")]
 pub use check::{Finding, Mistake, Plausibility, Shares, TangentialLine, plausibility, plausibility_with_friction};
 #[cfg(feature = "std")]
-pub use contour::{
-    Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceCurve, TraceKind, TracePoint, TraceRow,
-};
+pub use contour::{Assembly, ContourEstimate, Gap, GapReason, Measured, Trace, TraceKind, TracePoint, TraceRow};
 #[cfg(feature = "contact")]
 pub use fit::{
     ContourFit, FitError, FittedBlock, FittedObject, Goodness, Knowledge, ShapeKind, SimpleShape, WorstWindow,

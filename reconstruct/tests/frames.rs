@@ -22,7 +22,8 @@ pub struct Push {
 
 /// (x, y, phi, m) at the arc lengths `at`, from the base on, by Runge and Kutta's rule; `pushes` with their directions alpha.
 fn integrate(law: &Law, base: [f64; 3], m0: f64, pushes: &[Push], alphas: &[f64], at: &[f64]) -> Vec<[f64; 4]> {
-    let steps = 4000;
+    // the rule's error falls with the fourth power: below 1e-11 L, a hundredth of the tightest bound here
+    let steps = 1000;
     let rate = |s: f64, v: [f64; 4], [a, b]: [f64; 2]| {
         let (sin, cos) = v[2].sin_cos();
         [cos, sin, v[3] / (law.stiffness)(s) + (law.rest)(s), a * cos + b * sin]
@@ -255,7 +256,7 @@ fn free_rods_are_told_free() {
     for (number, (rod, law)) in rods().iter().enumerate() {
         let (at, mut normal) = (arcs(law.length, 40), Normal(77));
         let rest = integrate(law, [0.01, -0.02, 0.8], 0.0, &[], &[], &at);
-        let frames: Vec<Frame> = (0..1000)
+        let frames: Vec<Frame> = (0..300)
             .map(|_| {
                 let points = rest.iter().map(|v| [0, 1].map(|c| v[c] + 5e-4 * law.length * normal.next()));
                 Frame::from_base(&points.collect::<Vec<_>>())
@@ -264,7 +265,7 @@ fn free_rods_are_told_free() {
         let film = forces(rod, &frames, &ForceSettings::default());
         let free =
             film.frames.iter().filter(|judged| judged.as_ref().is_ok_and(|judged| judged.contacts.is_empty())).count();
-        assert!(free >= 990, "{number}: {free}");
+        assert!(free >= 297, "{number}: {free}");
     }
 }
 

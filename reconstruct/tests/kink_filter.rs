@@ -64,12 +64,21 @@ fn it_takes_no_memory_once_made() {
 
 #[test]
 fn it_leaves_out_what_is_no_sample() {
-    let mut filter = KinkFilter::new(STEP, [NOISE; 3], OPTIONS, 1000);
-    filter.push(0.0, [0.0; 3]);
-    filter.push(0.0, [0.0; 3]);
-    filter.push(f64::NAN, [0.0; 3]);
-    filter.push(STEP, [0.0, f64::INFINITY, 0.0]);
-    filter.push(STEP, [0.0; 3]);
-    assert_eq!(filter.skipped(), 3);
-    assert!(filter.finish().is_none());
+    let (tau, [a, b, c]) = recording(2);
+    let transitions = |faulty: bool| {
+        let mut filter = KinkFilter::new(STEP, [NOISE; 3], OPTIONS, tau.len());
+        let mut found = Vec::new();
+        for i in 0..tau.len() {
+            found.extend(filter.push(tau[i], [a[i], b[i], c[i]]));
+            if faulty && i % 100 == 0 {
+                found.extend(filter.push(tau[i], [0.0; 3]));
+                found.extend(filter.push(f64::NAN, [0.0; 3]));
+                found.extend(filter.push(tau[i] + 0.5 * STEP, [0.0, f64::INFINITY, 0.0]));
+            }
+        }
+        found.extend(std::iter::from_fn(|| filter.finish()));
+        found.iter().map(|kink| kink.next).collect::<Vec<_>>()
+    };
+    let clean = transitions(false);
+    assert_eq!((clean.len(), &clean), (4, &transitions(true)));
 }

@@ -1,14 +1,14 @@
 //! Consecutive samples, averaged: linear relations between them remain, with less noise.
 
+use crate::numeric::CHANCE;
 use crate::scan::noise_estimate::estimate;
 use nalgebra::Matrix3;
 use rod_core::{Pose, Reactions, Sample};
 
 /// Most bins of a recording. More: more time, and more noise of a bin.
 const MOST_BINS: usize = 1000;
-/// The rod is free where all reactions are within this many standard deviations of 0.
-const SIGMAS: f64 = 4.0;
-/// It is also free where they are no more than this share of the largest: samples without noise that were corrected are not exactly 0.
+/// The rod is also free where all reactions are no more than this share of the largest: samples without noise that were corrected are not
+/// exactly 0.
 const NOTHING: f64 = 1e-6;
 
 /// The mean of consecutive samples, SI units if theirs are.
@@ -53,7 +53,7 @@ pub(super) fn bins(samples: &[Sample], friction: impl Fn(usize) -> f64) -> Vec<R
             noise[c].sigma.powi(2) * long_run / n
         });
         let r = [reactions.f0x, reactions.f0y, reactions.m0z];
-        if (0..3).all(|c| r[c].abs() <= SIGMAS * variance[c].sqrt() + nothing[c]) {
+        if (0..3).all(|c| r[c].abs() <= CHANCE * variance[c].sqrt() + nothing[c]) {
             continue;
         }
         let friction = part.first().map_or(0.0, |(number, _)| friction(*number));

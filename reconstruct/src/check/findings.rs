@@ -4,13 +4,12 @@ use super::bins::ReactionBin;
 use super::finding::{Finding, UNITS};
 use super::line::Consensus;
 use super::shares::{Shares, contact};
+use crate::numeric::CHANCE;
 use crate::point::{NoContact, Touch};
 use crate::scan::Travel;
 use rod_core::{Reactions, Rod, Sample};
 use std::f64::consts::TAU;
 
-/// Standard errors within which a difference may be chance.
-const SIGMAS: f64 = 4.0;
 /// Smallest relative difference of the stiffness that is reported.
 const STIFFNESS: f64 = 0.03;
 /// Smallest relative difference of the length that is reported.
@@ -19,13 +18,13 @@ const LENGTH: f64 = 0.03;
 /// reported from half of this on.
 const SHIFT: f64 = 0.01;
 /// The units are wrong where the slope is within this factor of a power of ten of the stiffness.
-const NEAR: f64 = 2.0;
+pub(super) const NEAR: f64 = 2.0;
 /// Smallest share of the scan in contact without a single contact that is reported.
 const UNEXPLAINED: f64 = 0.2;
 /// Contacts of the tip whose arc lengths differ by no more than this, relative, are all at the tip.
 const ALIKE: f64 = 0.01;
 /// Path lengths of the clamp beyond this many rod lengths are probably in another unit.
-const LONG_WAY: f64 = 100.0;
+pub(super) const LONG_WAY: f64 = 100.0;
 /// Phase criterion, relative to m0z^2, above which (below 0) a contact may be tangential.
 const TANGENTIAL: f64 = 0.02;
 /// Share of the contacts of the tip at the arc length of the rod, within `ALIKE`, from which on the others are taken for those of several
@@ -78,7 +77,7 @@ pub(super) fn findings(
 fn of_line(rod: &Rod, bins: &[ReactionBin], found: &Consensus, findings: &mut Vec<Finding>) -> f64 {
     let (line, given) = (&found.line, rod.bending_stiffness());
     let mut ratio = line.slope / given;
-    if ratio < 0.0 && line.slope.abs() > SIGMAS * line.slope_sigma {
+    if ratio < 0.0 && line.slope.abs() > CHANCE * line.slope_sigma {
         findings.push(Finding::Sign);
     }
     let near = |power: i32| (ratio.abs().log10() - f64::from(power)).abs() < NEAR.log10();
@@ -89,12 +88,12 @@ fn of_line(rod: &Rod, bins: &[ReactionBin], found: &Consensus, findings: &mut Ve
     let suggested = ratio.abs() * given;
     let sigma = line.slope_sigma / line.slope.abs() * suggested;
     let off = (suggested - given).abs();
-    if off > STIFFNESS * given && off > SIGMAS * sigma {
+    if off > STIFFNESS * given && off > CHANCE * sigma {
         findings.push(Finding::Stiffness { given, suggested, sigma });
     }
     let square = bins.iter().map(|bin| bin.square.abs()).fold(0.0, f64::max);
     if let Some((moment, sigma)) = line.moment_offset
-        && moment.abs() > SIGMAS * sigma
+        && moment.abs() > CHANCE * sigma
     {
         let part = moment / square.sqrt();
         if part.abs() > 0.5 * SHIFT {
@@ -102,7 +101,7 @@ fn of_line(rod: &Rod, bins: &[ReactionBin], found: &Consensus, findings: &mut Ve
         }
     } else {
         let part = line.intercept / square;
-        if part.abs() > SHIFT && line.intercept.abs() > SIGMAS * line.intercept_sigma {
+        if part.abs() > SHIFT && line.intercept.abs() > CHANCE * line.intercept_sigma {
             findings.push(Finding::Intercept { part, force: -0.5 * line.intercept / line.slope });
         }
     }
@@ -132,7 +131,7 @@ fn length(rod: &Rod, bins: &[ReactionBin]) -> Option<Finding> {
     let tip = |bin: &&ReactionBin| {
         let noise = bin.sigma_square.hypot(stiffness * bin.sigma_load);
         let criterion = bin.square - stiffness * bin.load;
-        criterion < -SIGMAS * noise && criterion < -TANGENTIAL * bin.square.abs()
+        criterion < -CHANCE * noise && criterion < -TANGENTIAL * bin.square.abs()
     };
     let mut lengths: Vec<f64> = bins
         .iter()

@@ -2,15 +2,13 @@
 
 use super::bins::ReactionBin;
 use super::fit::{Columns, Fit, sigma, straight, with_offset};
-use crate::numeric::robust_sigma;
+use crate::numeric::{CHANCE, robust_sigma};
 
 /// Bins of the windows through which lines are tried.
 const WINDOWS: [usize; 3] = [8, 24, 72];
 /// First tolerance of the distance of a bin from a line, relative to the largest square. Larger: contacts of the tip near the line
 /// count, too; smaller: a line is missed where the noise is underestimated.
 const WIDE: f64 = 2e-3;
-/// Bins within this many standard deviations are on a line.
-const SIGMAS: f64 = 4.0;
 /// Fewest bins on a line.
 const FEWEST: usize = 8;
 /// Smallest share of the bins that must be on a line.
@@ -123,7 +121,7 @@ fn consensus(bins: &[ReactionBin], largest: f64) -> Option<(Vec<bool>, f64)> {
         for window in bins.windows(length).step_by((length / 4).max(1)) {
             let Some((slope, intercept)) = through(window) else { continue };
             let off = |bin: &ReactionBin| (bin.square - intercept - slope * bin.load).abs();
-            let on = |bin: &ReactionBin| off(bin) <= wide.max(SIGMAS * sigma(bin, slope));
+            let on = |bin: &ReactionBin| off(bin) <= wide.max(CHANCE * sigma(bin, slope));
             // a window that is not straight itself has no tangential contacts
             if !window.iter().all(on) {
                 continue;
@@ -175,7 +173,7 @@ fn refine<const N: usize>(
         slope = fit.at[0];
         let alone: Vec<f64> = bins.iter().map(|bin| fit.off(bin, columns) / sigma(bin, slope).max(rounding)).collect();
         let together = with_neighbours(&alone);
-        let most = [&alone, &together].map(|z| SIGMAS * scatter(z, &on).max(1.0));
+        let most = [&alone, &together].map(|z| CHANCE * scatter(z, &on).max(1.0));
         let next: Vec<bool> =
             alone.iter().zip(&together).map(|(a, t)| a.abs() <= most[0] && t.abs() <= most[1]).collect();
         let same = next == on;
@@ -208,5 +206,5 @@ fn is_bent(bins: &[ReactionBin], on: &[bool], slope: f64, rounding: f64) -> bool
     let Some(fit) = Fit::of(bins, on, &quadratic, slope, rounding) else { return false };
     let half = 0.5 * (most - least);
     let bent = fit.at[2].abs() * half * half;
-    bent > BENT * (fit.at[0] * 2.0 * half).abs() && fit.at[2].abs() > SIGMAS * fit.sigma(2)
+    bent > BENT * (fit.at[0] * 2.0 * half).abs() && fit.at[2].abs() > CHANCE * fit.sigma(2)
 }

@@ -1,21 +1,16 @@
 //! Mistakes in a recording that can be undone.
 
+use super::findings::{LONG_WAY, NEAR};
+use crate::numeric::CHANCE;
 use rod_core::{Pose, Reactions, Rod, Sample};
 use std::f64::consts::{PI, TAU};
 use std::fmt;
 
-/// Way of the clamp, rod lengths, that is too long for a scan in metres: in millimetres it is a tenth of a rod length at least.
-const LONG: f64 = 100.0;
-
-/// Share of a recording, and least number of samples, at its begin in which the reactions are those without load if they stay the same there within so many
-/// standard errors.
+/// Share of a recording, and least number of samples, at its begin in which the reactions are those without load if they stay the same there.
 const AT_REST: f64 = 0.03;
 const FEWEST: usize = 8;
-const STEADY: f64 = 4.0;
 /// Range of a coordinate, rod lengths, below which it is constant but for trembling: its sign cannot be told from the recording.
 const MOVES: f64 = 0.01;
-/// Ratio of the stiffness of the tangential line to that of the rod, either way, beyond which units are not what they are taken for. As for the check of the units.
-const NEAR: f64 = 2.0;
 
 /// A mistake in signs, axes or units of a recording, or in the rod, that can be undone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +80,7 @@ impl Mistake {
                 let values = || samples.iter().map(|sample| of(&sample.pose));
                 let (least, most) =
                     (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
-                most - least > LONG * rod.length()
+                most - least > LONG_WAY * rod.length()
             }),
             Self::Degrees => samples.iter().any(|sample| sample.pose.phi.abs() > TAU),
             _ => true,
@@ -105,7 +100,7 @@ impl Mistake {
         };
         let is_steady = |c: usize| {
             let error = ((variance(first, c) + variance(second, c)) / (count / 2) as f64).sqrt();
-            (mean(second, c) - mean(first, c)).abs() <= STEADY * error
+            (mean(second, c) - mean(first, c)).abs() <= CHANCE * error
         };
         let [f0x, f0y, m0z] = [0, 1, 2].map(|c| mean(&rest, c));
         (0..3).all(is_steady).then_some(Self::Tare(Reactions { f0x, f0y, m0z }))

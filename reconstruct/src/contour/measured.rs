@@ -12,7 +12,7 @@ use nalgebra::{Matrix2, Vector2};
 /// ```
 /// use rod_reconstruct::{Label, Measured};
 /// let lost = Measured { reason: Some("the rod is shorter than that"), ..Measured::new(Label::B, &[]) };
-/// assert!(lost.touches.is_empty() && Measured::free().label == Label::Free);
+/// assert!(lost.touches.is_empty());
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Measured<'a> {
@@ -28,11 +28,6 @@ pub struct Measured<'a> {
 }
 
 impl<'a> Measured<'a> {
-    /// A sample of a rod that touches nothing.
-    pub fn free() -> Self {
-        Self { label: Label::Free, touches: &[], reason: None, shared: 1 }
-    }
-
     /// A sample with its contacts.
     pub fn new(label: Label, touches: &'a [Touch]) -> Self {
         Self { label, touches, reason: None, shared: 1 }

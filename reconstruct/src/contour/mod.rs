@@ -26,4 +26,4 @@ pub use measured::Measured;
 #[cfg(feature = "contact")]
 pub(crate) use simplify::corners;
 pub(crate) use simplify::simplify;
-pub use trace::{Trace, TraceCurve, TraceKind, TracePoint};
+pub use trace::{Trace, TraceKind, TracePoint};

@@ -73,8 +73,10 @@ fn a_clean_scan_is_kept_to_rounding() {
     assert!(worst < 1e-11 && trace.points.len() < 400);
     let (first, last) = (trace.points[0], trace.points[trace.points.len() - 1]);
     assert!((first.x - -0.03).abs() < 2e-6 && (last.x - 0.03).abs() < 2e-6);
-    let spline = trace.contour(TraceCurve::Spline).unwrap();
-    use rod_contours::Contour;
+    use rod_contours::{Contour, Spline, SplineEnd};
+    let points: Vec<[f64; 2]> = trace.points.iter().map(|point| [point.x, point.y]).collect();
+    let spline =
+        Spline::through(&points, SplineEnd::Clamped { from: Some(first.alpha), to: Some(last.alpha) }).unwrap();
     let worst = (0..300).map(|k| parabola(f64::from(k) / 300.0 * 0.99 + 0.005)).map(|(x, y, _)| spline.gap(x, y).abs());
     assert!(worst.fold(0.0, f64::max) < 1e-7);
 }
@@ -132,8 +134,9 @@ fn a_contact_that_stands_still_at_a_vertex_does_not_end_a_trace() {
         println!("vertex, sigma {sigma}: {} points, worst {:.2} um", trace.points.len(), worst * 1e6);
         assert!(worst < within && !trace.reversed);
         // It comes by the vertex.
-        use rod_contours::Contour;
-        assert!(trace.contour(TraceCurve::Polyline).unwrap().gap(0.0, 0.0).abs() < 2.0 * within.max(1e-6));
+        let points: Vec<[f64; 2]> = trace.points.iter().map(|point| [point.x, point.y]).collect();
+        use rod_contours::{Composite, Contour};
+        assert!(Composite::polyline(&points).unwrap().gap(0.0, 0.0).abs() < 2.0 * within.max(1e-6));
     }
 }
 
@@ -153,7 +156,7 @@ fn a_tip_that_stands_in_a_notch_does_not_end_a_trace() {
 fn gaps_are_where_there_is_no_single_contact() {
     let all = touches(10_000, 0.0, 0, parabola);
     let samples = |k: usize| match k {
-        0..1000 | 9500.. => Measured::free(),
+        0..1000 | 9500.. => Measured::new(Label::Free, &[]),
         4000..5000 => Measured::new(if k < 4500 { Label::BB } else { Label::BA }, &all[k..k + 2]),
         // Second contact not known.
         5000..5200 => Measured::new(Label::BA, &all[k..k + 1]),
@@ -230,14 +233,12 @@ fn correlated_noise_is_stated_as_larger() {
 fn scans_that_say_little() {
     let assembly = Assembly::default();
     assert_eq!(assembly.assemble([]), ContourEstimate::default());
-    let free = assembly.assemble([Measured::free(); 5]);
+    let free = assembly.assemble([Measured::new(Label::Free, &[]); 5]);
     assert_eq!((free.traces.len(), free.gaps.len()), (0, 1));
     assert_eq!((free.gaps[0].from, free.gaps[0].to, &free.gaps[0].reason), (None, None, &GapReason::Free));
     let one = touches(1, 0.0, 0, parabola);
     let single = single(&one);
     assert_eq!((single.traces.len(), single.traces[0].points.len(), single.gaps.len()), (1, 1, 0));
-    assert!(single.traces[0].contour(TraceCurve::Polyline).is_err());
-    assert!(single.traces[0].contour(TraceCurve::Smoothing).is_err());
 }
 
 #[test]

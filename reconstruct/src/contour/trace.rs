@@ -1,6 +1,5 @@
 //! A stretch of the contour from one run of samples.
 
-use rod_contours::{Composite, ContourError, Spline, SplineEnd};
 use std::fmt;
 use std::ops::Range;
 
@@ -42,19 +41,6 @@ pub struct TracePoint {
     pub systematic: f64,
 }
 
-/// How a trace becomes a contour.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum TraceCurve {
-    /// Straight from point to point.
-    #[default]
-    Polyline,
-    /// The cubic spline through the points, with their tangents at its ends.
-    Spline,
-    /// The smoothest spline that leaves the points by no more than their standard deviation. A vertex is rounded by it.
-    Smoothing,
-}
-
 /// A stretch of the contour that the contact followed through consecutive samples, as points along the contour.
 ///
 /// The points are in the direction of contours, with the solid on the left, whichever way the scan went. Points that were left out
@@ -92,39 +78,5 @@ impl Trace {
     fn end(&self, last: bool) -> Option<[f64; 2]> {
         let point = if last { self.points.last() } else { self.points.first() };
         point.map(|point| [point.x, point.y])
-    }
-
-    /// The contour through its points, m.
-    ///
-    /// # Errors
-    ///
-    /// [`ContourError`] for a single point, and for points that noise makes turn back or cross.
-    ///
-    /// ```
-    /// use rod_contours::Contour;
-    /// use rod_reconstruct::{Trace, TraceCurve, TraceKind, TracePoint};
-    /// let point = |x: f64| TracePoint { x, y: x * x, alpha: (2.0 * x).atan(), sigma: 1e-3, systematic: 0.0 };
-    /// let points = vec![point(-1.0), point(-0.5), point(0.0), point(0.5), point(1.0)];
-    /// let trace = Trace { kind: TraceKind::Single, samples: 0..5, reversed: false, points };
-    /// assert!((trace.contour(TraceCurve::Polyline)?.gap(0.25, 0.0) - 0.1118).abs() < 1e-4);
-    /// assert!((trace.contour(TraceCurve::Spline)?.gap(0.0, -1.0) - 1.0).abs() < 1e-12);
-    /// # Ok::<(), rod_contours::ContourError>(())
-    /// ```
-    pub fn contour(&self, curve: TraceCurve) -> Result<Composite, ContourError> {
-        let points: Vec<[f64; 2]> = self.points.iter().map(|point| [point.x, point.y]).collect();
-        match curve {
-            TraceCurve::Polyline => Composite::polyline(&points),
-            TraceCurve::Spline => {
-                let angle = |point: Option<&TracePoint>| point.map(|point| point.alpha);
-                let end = SplineEnd::Clamped { from: angle(self.points.first()), to: angle(self.points.last()) };
-                Composite::single(Spline::through(&points, end)?)
-            }
-            TraceCurve::Smoothing => {
-                let square: f64 = self.points.iter().map(|point| point.sigma * point.sigma).sum();
-                // the spline expects the noise of two coordinates; that of a trace is across the contour only
-                let sigma = (0.5 * square / points.len().max(1) as f64).sqrt();
-                Composite::single(Spline::smoothing(&points, sigma)?)
-            }
-        }
     }
 }

@@ -14,6 +14,7 @@ use super::pole_search::{PoleSearch, Touch};
 use super::result::{Film, FrameContact, FrameForces, contacts};
 use super::settings::ForceSettings;
 use super::verdict::FrameVerdict;
+use crate::numeric::CHANCE;
 use rod_core::{PhysicalRod, RodModel};
 
 /// By how much chi squared is less with the points in reverse order, at least.
@@ -21,8 +22,6 @@ const CLEARLY: f64 = 30.0;
 /// Distance of the rim of a pole from the contact, in the noise of the points and in L at least: as good as none. Smaller: a narrower valley
 /// for the least squares.
 const EXACT: (f64, f64) = (1e-2, 1e-6);
-/// Standard deviations within which a shortening is noise.
-const SIGMAS: f64 = 4.0;
 
 /// The forces on `rod` in each frame, by the elastica through its observations with the fewest contacts that explain them.
 ///
@@ -122,7 +121,7 @@ fn of_frame<R: PhysicalRod>(
     let Chosen { best, rivals, unseen } = choose(rod.model(), &observed, allowed).ok_or(FrameFault::NoShape)?;
     let shortening = shortening(&best, &observed);
     if let Some((share, sigma)) = shortening
-        && share > settings.most_shortening + SIGMAS * sigma
+        && share > settings.most_shortening + CHANCE * sigma
     {
         return Err(FrameFault::OutOfPlane { shortening: 1e2 * share, most: 1e2 * settings.most_shortening });
     }

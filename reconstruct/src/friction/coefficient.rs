@@ -1,5 +1,7 @@
 //! The coefficient of friction: what is known before a reconstruction, and what a scan says.
 
+use crate::numeric::CHANCE;
+
 /// Standard deviation of the coefficient of friction about that of the plateau, where nothing is known of it: as good as anything.
 pub(crate) const ANY: f64 = 0.3;
 
@@ -40,8 +42,6 @@ impl Friction {
     }
 }
 
-/// Standard deviations by which friction must differ from 0.
-const SIGMAS: f64 = 4.0;
 /// Logarithm of the factor by which a scan must be likelier with friction than without: very strong evidence (Jeffreys 1961, appendix B).
 const DECISIVE: f64 = 10.0;
 /// How much errors of an ordinary laboratory let a coefficient seem to vary: 0.01.
@@ -97,7 +97,7 @@ impl FrictionAlone {
     /// Whether the pass contradicts the coefficient that was given: by more than four standard deviations, and by more than errors of an
     /// ordinary laboratory let a coefficient seem to vary.
     pub fn contradicts(&self) -> bool {
-        self.deviation > SIGMAS && (self.mu - self.given).abs() > SPREAD
+        self.deviation > CHANCE && (self.mu - self.given).abs() > SPREAD
     }
 }
 
@@ -105,11 +105,11 @@ impl FrictionEstimate {
     /// Whether the friction is significant: the coefficient exceeds four times [`sigma_of_noise`](Self::sigma_of_noise), and the likelihood ratio
     /// is very strong evidence against a pass without friction.
     pub fn is_significant(&self) -> bool {
-        self.mu.abs() > SIGMAS * self.sigma_of_noise && self.gain > DECISIVE
+        self.mu.abs() > CHANCE * self.sigma_of_noise && self.gain > DECISIVE
     }
 
     /// Whether the systematic errors do not explain the friction of the pass: the coefficient exceeds four times [`sigma`](Self::sigma).
     pub fn is_identified(&self) -> bool {
-        self.mu.abs() > SIGMAS * self.sigma && self.gain > DECISIVE
+        self.mu.abs() > CHANCE * self.sigma && self.gain > DECISIVE
     }
 }

@@ -1,7 +1,7 @@
 //! The value of K / (2 |F|) along tangential contacts: sin rho.
 
 use crate::least_squares::Loss;
-use crate::numeric::{median, robust_sigma};
+use crate::numeric::{CHANCE, median, robust_sigma};
 use crate::phase::{Evidence, Place, label_log_likelihood};
 use crate::point::{Clamp, Inverse};
 use crate::scan::{LocalEstimate, Noise, Track};
@@ -42,8 +42,6 @@ const ANOTHER: f64 = 0.1;
 const FINEST: f64 = 1e-9;
 /// A plateau this close to 0 is none: sensors, clamps and rods of an ordinary laboratory let K / (2 |F|) be as large.
 const NOTHING: f64 = 0.03;
-/// Standard deviations within which a number may be 0 by chance.
-const SIGMAS: f64 = 4.0;
 /// The same absolutely, per way of the clamp: the error of rates of noise-free samples. Smaller: exact samples are no plateau.
 const RATE: f64 = 1e-6;
 
@@ -99,7 +97,7 @@ impl TangentialPlace {
         let (value, sigma) = ratio(rod, &estimate, &clamp).filter(|(_, sigma)| *sigma < VAGUE)?;
         let found = rod.first(&estimate.clamp).ok()?;
         let none = Vector3::zeros();
-        let before_tip = 1.0 - found.s - SIGMAS * estimate.variance(&found.s_by_reactions, &none).sqrt();
+        let before_tip = 1.0 - found.s - CHANCE * estimate.variance(&found.s_by_reactions, &none).sqrt();
         let (_, gradient) = rod.gradient_at(&estimate.clamp, found.s);
         let rate = gradient.rate(&estimate.rate);
         let (sin, cos) = found.section.phi.sin_cos();
@@ -109,7 +107,7 @@ impl TangentialPlace {
         };
         let (across, of_across) = along(-sin, cos);
         let slides = along(cos, sin);
-        let is_one = before_tip > RATE && across.abs() < SIGMAS * of_across + RATE * (1.0 + slides.0.abs());
+        let is_one = before_tip > RATE && across.abs() < CHANCE * of_across + RATE * (1.0 + slides.0.abs());
         is_one.then_some(Self { value, sigma: sigma.max(FINEST), weight: place.weight, way, slides })
     }
 
@@ -235,7 +233,7 @@ pub(crate) fn plateau_friction<I: Inverse>(
     let information = plateau_value(&sides, sine).1;
     let tangent_by_sine = (1.0 - sine * sine).powf(-1.5);
     let (scatter, spread) = off_plateau(&sides, found);
-    let backwards = |side: &&TangentialPlace| found * side.slides.0 > SIGMAS * side.slides.1 * found.abs() + RATE;
+    let backwards = |side: &&TangentialPlace| found * side.slides.0 > CHANCE * side.slides.1 * found.abs() + RATE;
     let all = path_length(sides.iter());
     let against = if all > 0.0 && found != 0.0 { path_length(sides.iter().filter(backwards)) / all } else { 0.0 };
     let sigma = tangent_by_sine / information.sqrt();
@@ -249,7 +247,7 @@ fn path_length<'a>(sides: impl Iterator<Item = &'a TangentialPlace>) -> f64 {
 /// The signs that friction may have: against the way in which the rod slides along most of the path.
 fn signs(sides: &[TangentialPlace]) -> &'static [f64] {
     let slides =
-        |sign: f64| path_length(sides.iter().filter(|side| sign * side.slides.0 > SIGMAS * side.slides.1 + RATE));
+        |sign: f64| path_length(sides.iter().filter(|side| sign * side.slides.0 > CHANCE * side.slides.1 + RATE));
     let (on, back) = (slides(1.0), slides(-1.0));
     if on == back {
         &[1.0, -1.0]
@@ -263,10 +261,10 @@ fn signs(sides: &[TangentialPlace]) -> &'static [f64] {
 /// The value of another plateau than that at `sine`, and the standard deviation of one of its places, if a part of the path has one.
 fn another_plateau(sides: &[TangentialPlace], sine: f64) -> Option<(f64, f64)> {
     let exact: Vec<TangentialPlace> = sides.iter().copied().filter(|side| side.sigma < NARROWEST).collect();
-    let is_off = |side: &TangentialPlace| (side.value - sine).abs() > APART.hypot(SIGMAS * side.sigma);
+    let is_off = |side: &TangentialPlace| (side.value - sine).abs() > APART.hypot(CHANCE * side.sigma);
     let off: Vec<TangentialPlace> = exact.iter().copied().filter(is_off).collect();
     let peak = *peaks(&density(&off)).first()?;
-    let near = |side: &&TangentialPlace| (side.value - peak).abs() < NARROWEST.hypot(SIGMAS * side.sigma);
+    let near = |side: &&TangentialPlace| (side.value - peak).abs() < NARROWEST.hypot(CHANCE * side.sigma);
     let values = off.iter().filter(near).map(|side| side.value).collect();
     let sigmas = off.iter().filter(near).map(|side| side.sigma).collect();
     let found = median(values).zip(median(sigmas));
@@ -298,16 +296,16 @@ fn plateau_value(sides: &[TangentialPlace], peak: f64) -> (f64, f64) {
     let (mut sine, mut near) = (peak, NEAR);
     for _ in 0..TURNS {
         let about: Vec<&TangentialPlace> =
-            sides.iter().filter(|side| (side.value - sine).abs() < near.hypot(SIGMAS * side.sigma)).collect();
+            sides.iter().filter(|side| (side.value - sine).abs() < near.hypot(CHANCE * side.sigma)).collect();
         let Some(middle) = median(about.iter().map(|side| side.value).collect()) else { break };
         sine = middle;
-        near = SIGMAS * robust_sigma(about.iter().map(|side| side.value - sine)).unwrap_or(0.0);
+        near = CHANCE * robust_sigma(about.iter().map(|side| side.value - sine)).unwrap_or(0.0);
     }
     // a weighted mean whose loss has the scale of the residuals one turn before
     let (mut information, mut scatter) = (0.0, 1.0);
     for _ in 0..TURNS {
         let z = |side: &TangentialPlace| (side.value - sine) / side.sigma;
-        let near = sides.iter().filter(|side| (side.value - sine).abs() < NEAR.hypot(SIGMAS * side.sigma));
+        let near = sides.iter().filter(|side| (side.value - sine).abs() < NEAR.hypot(CHANCE * side.sigma));
         let next = robust_sigma(near.map(z)).unwrap_or(1.0).max(1.0);
         let loss = Loss::Cauchy(OUTLYING * scatter);
         let mut sums = (0.0, 0.0);

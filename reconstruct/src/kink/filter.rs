@@ -42,7 +42,6 @@ pub struct KinkFilter {
     nominal: usize,
     pending: VecDeque<Kink>,
     last: Option<Kink>,
-    skipped: usize,
 }
 
 /// A transition within this many samples or standard deviations of the last one is the same, found again by the next search.
@@ -68,7 +67,6 @@ impl KinkFilter {
             nominal,
             pending: VecDeque::with_capacity(capacity),
             last: None,
-            skipped: 0,
         }
     }
 
@@ -78,16 +76,10 @@ impl KinkFilter {
         self.margin + self.hop
     }
 
-    /// Number of samples left out because they were not finite, or not beyond the one before.
-    pub fn skipped(&self) -> usize {
-        self.skipped
-    }
-
     /// Takes a sample and returns the next transition that was found. Its `next` counts the samples taken.
     pub fn push(&mut self, tau: f64, channels: [f64; 3]) -> Option<Kink> {
         let increases = self.tau.last().is_none_or(|last| tau > *last);
         if !tau.is_finite() || !increases || channels.iter().any(|y| !y.is_finite()) {
-            self.skipped += 1;
             return self.pending.pop_front();
         }
         self.tau.push(tau);

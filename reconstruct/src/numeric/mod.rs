@@ -29,3 +29,8 @@ pub(crate) use normal_equations::NormalEquations;
 pub use number::Number;
 #[cfg(feature = "std")]
 pub(crate) use robust::{median, robust_sigma};
+
+/// Standard deviations within which a difference counts as chance: 6e-5 of normal numbers are beyond. Larger: errors must be larger to be
+/// found; smaller: good recordings get findings.
+#[cfg(feature = "std")]
+pub(crate) const CHANCE: f64 = 4.0;

@@ -1,6 +1,7 @@
 //! The places of a live scan so far, and what they tell of the errors that all samples share.
 
 use super::learned::Learned;
+use crate::numeric::CHANCE;
 use crate::phase::{Label, Place, Trellis, forward_probabilities, most_likely};
 use crate::scan::Track;
 use crate::systematic::{Budget, Calibration, Errors, Known, RemainingErrors, calibrate_labelled, errors_before_scan};
@@ -14,8 +15,6 @@ const FEWEST: usize = 16;
 const GROWTH: f64 = 0.2;
 /// Probability of a label from which on its place counts for the errors. Smaller: wrong labels agree with wrong errors.
 const SURE: f64 = 0.99;
-/// Standard deviations within which the reactions of the free rod stay.
-const SIGMAS: f64 = 4.0;
 
 /// The places of a live scan so far. Where there are too many, every second one is dropped.
 #[derive(Clone, Debug)]
@@ -171,7 +170,7 @@ impl History {
             let variance = start.covariance() + here.covariance();
             (0..3).all(|c| {
                 let off = here.clamp.reactions[c] - start.clamp.reactions[c];
-                off.abs() <= SIGMAS * (variance[(c, c)] + (drift[c] * way).powi(2)).sqrt()
+                off.abs() <= CHANCE * (variance[(c, c)] + (drift[c] * way).powi(2)).sqrt()
             })
         };
         (0..before_break).take_while(stays).count()

@@ -5,12 +5,10 @@ use super::moment_zero::is_free;
 use super::no_contact::NoContact;
 use super::single::dimensionless;
 use super::touch::Touch;
-use crate::numeric::variance;
+use crate::numeric::{CHANCE, variance};
 use nalgebra::{Matrix2, Matrix3, SMatrix, SVector};
 use rod_core::{Cut, PhysicalRod, Pose, Reactions, RodModel, Units};
 
-/// Standard deviations within which a difference counts as noise.
-const SIGMAS: f64 = 4.0;
 /// What exact reactions are off by, relative to 1 + |reactions|: what solver and rounding leave.
 const EXACT: f64 = 1e-10;
 
@@ -179,7 +177,7 @@ fn zero_of_moment<const N: usize>(felt: &impl Felt<N>, s: f64, covariance: &SMat
     let bend = felt.model().curvature_at(s, 0.0);
     let by_angle = SVector::from(columns.map(|column| column[2])) + by_s * bend - turn;
     let (pressing, tilt) = (at.phi - b.atan2(a)).sin_cos();
-    let noise = |gradient: &SVector<f64, N>| SIGMAS * variance(gradient, covariance).sqrt();
+    let noise = |gradient: &SVector<f64, N>| CHANCE * variance(gradient, covariance).sqrt();
     ZeroOfMoment { s, s_noise: noise(&by_s), pressing, pressing_noise: noise(&(by_angle * tilt)) }
 }
 
@@ -187,7 +185,7 @@ fn zero_of_moment<const N: usize>(felt: &impl Felt<N>, s: f64, covariance: &SMat
 fn is_free_of_moment<const N: usize>(felt: &impl Felt<N>, s: f64, covariance: &SMatrix<f64, N, N>) -> bool {
     let (at, columns) = felt.by_readings(s);
     let gradient = SVector::from(columns.map(|column| column[3]));
-    at.moment.abs() <= SIGMAS * variance(&gradient, covariance).sqrt()
+    at.moment.abs() <= CHANCE * variance(&gradient, covariance).sqrt()
 }
 
 /// The contact there, dimensionless; it `slides` along the rod with the readings so that the moment there stays 0.

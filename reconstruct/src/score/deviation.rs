@@ -24,7 +24,7 @@ pub fn signed_distance(objects: &[Composite], x: f64, y: f64) -> Option<f64> {
     gaps.min_by(|a, b| a.abs().total_cmp(&b.abs())).filter(|gap| gap.is_finite())
 }
 
-/// Statistics of the distances of points from the contour, in the unit of the distances; from [`of_points`](Self::of_points) in m.
+/// Statistics of the distances of points from the contour, in the unit of the distances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
     /// How many points.
@@ -63,14 +63,6 @@ impl Deviation {
         let [median, percentile_95, largest] = [0.5, 0.95, 1.0].map(|share| quantile(&distances, share));
         Some(Self { count, bias, median, percentile_95, largest })
     }
-
-    /// Of points (m) from the contours of these objects, by [`signed_distance`].
-    ///
-    /// None without points or objects, and where a point is not finite.
-    pub fn of_points(objects: &[Composite], points: impl IntoIterator<Item = [f64; 2]>) -> Option<Self> {
-        let distances: Option<Vec<f64>> = points.into_iter().map(|[x, y]| signed_distance(objects, x, y)).collect();
-        Self::of(distances?)
-    }
 }
 
 /// A quantile of ordered values, at least one.
@@ -107,8 +99,7 @@ mod tests {
         let objects = [floor(0.0), floor(1.0)];
         assert_eq!(signed_distance(&objects, 0.0, 0.25), Some(-0.25));
         assert_eq!(signed_distance(&objects, 0.0, 0.75), Some(0.25), "in the first one, but nearer to the second");
-        let deviation = Deviation::of_points(&objects, [[0.0, 0.0], [1.0, 1.0], [2.0, -0.5]]).unwrap();
-        assert_eq!((deviation.count, deviation.median, deviation.largest), (3, 0.0, 0.5));
+        assert_eq!(signed_distance(&objects, 2.0, -0.5), Some(0.5));
     }
 
     #[test]
@@ -117,8 +108,6 @@ mod tests {
         assert_eq!(Deviation::of([1.0, f64::NAN]), None);
         assert_eq!(signed_distance(&[], 0.0, 0.0), None);
         assert_eq!(signed_distance(&[floor(0.0)], f64::NAN, 0.0), None);
-        assert_eq!(Deviation::of_points(&[floor(0.0)], []), None);
-        assert_eq!(Deviation::of_points(&[floor(0.0)], [[0.0, f64::INFINITY]]), None);
     }
 
     proptest! {
@@ -133,7 +122,10 @@ mod tests {
                 [frame.x + distance * frame.alpha.sin(), frame.y - distance * frame.alpha.cos()]
             };
             let mut points: Vec<[f64; 2]> = places.iter().map(moved).collect();
-            let deviation = Deviation::of_points(&contour, points.clone()).unwrap();
+            let of = |points: &[[f64; 2]]| {
+                Deviation::of(points.iter().map(|[x, y]| signed_distance(&contour, *x, *y).unwrap())).unwrap()
+            };
+            let deviation = of(&points);
             let expected = Deviation::of(places.iter().map(|place| place.1)).unwrap();
             for (a, b) in [
                 (deviation.bias, expected.bias),
@@ -144,7 +136,7 @@ mod tests {
                 prop_assert!((a - b).abs() < 1e-9, "{deviation:?} {expected:?}");
             }
             points.rotate_left(turn % places.len());
-            let turned = Deviation::of_points(&contour, points).unwrap();
+            let turned = of(&points);
             prop_assert!((turned.bias - deviation.bias).abs() < 1e-12);
             prop_assert_eq!(Deviation { bias: deviation.bias, ..turned }, deviation);
         }

@@ -88,11 +88,6 @@ impl KinkScore {
         share(self.matches.len(), self.found)
     }
 
-    /// Harmonic mean of recall and precision, 2 matches / (truth + found); none where there are no kinks at all.
-    pub fn f1(&self) -> Option<f64> {
-        share(2 * self.matches.len(), self.truth + self.found)
-    }
-
     /// Median of the absolute errors of position, m; none without matches.
     pub fn median_error(&self) -> Option<f64> {
         Deviation::of(self.matches.iter().map(KinkMatch::error)).map(|errors| errors.median)
@@ -122,7 +117,7 @@ mod tests {
         let score = KinkScore::of(&[1.0, 1.1], &[1.04, 9.0], 0.5);
         assert_eq!((score.matches.len(), score.false_alarms()), (1, 1));
         assert_eq!(score.matches[0].found, 1.0);
-        assert_eq!((score.recall(), score.precision(), score.f1()), (Some(0.5), Some(0.5), Some(0.5)));
+        assert_eq!((score.recall(), score.precision()), (Some(0.5), Some(0.5)));
     }
 
     #[test]
@@ -135,10 +130,10 @@ mod tests {
     #[test]
     fn what_cannot_be_said_is_none() {
         let nothing = KinkScore::of(&[], &[], 1.0);
-        assert_eq!((nothing.recall(), nothing.precision(), nothing.f1()), (None, None, None));
+        assert_eq!((nothing.recall(), nothing.precision()), (None, None));
         assert_eq!((nothing.median_error(), nothing.largest_error()), (None, None));
         let missed = KinkScore::of(&[], &[1.0], 1.0);
-        assert_eq!((missed.recall(), missed.precision(), missed.f1()), (Some(0.0), None, Some(0.0)));
+        assert_eq!((missed.recall(), missed.precision()), (Some(0.0), None));
         let odd = KinkScore::of(&[f64::NAN, f64::INFINITY], &[1.0, f64::INFINITY], 1.0);
         assert_eq!((odd.recall(), odd.false_alarms(), odd.largest_error()), (Some(0.0), 2, None));
         assert_eq!(KinkScore::of(&[1.0], &[1.0], f64::NAN).recall(), Some(0.0));
@@ -165,11 +160,11 @@ mod tests {
             let scaled = of(&found, &truth, 1.0);
             prop_assert_eq!((scaled.recall(), scaled.precision()), (score.recall(), score.precision()));
             let perfect = of(&truth, &truth, 0.125);
-            prop_assert_eq!((perfect.recall(), perfect.precision(), perfect.f1()), (Some(1.0), Some(1.0), Some(1.0)));
+            prop_assert_eq!((perfect.recall(), perfect.precision()), (Some(1.0), Some(1.0)));
             prop_assert_eq!(perfect.largest_error(), Some(0.0));
             let mut twice = score.clone();
             twice.merge(&score);
-            prop_assert_eq!((twice.recall(), twice.f1()), (score.recall(), score.f1()));
+            prop_assert_eq!((twice.recall(), twice.precision()), (score.recall(), score.precision()));
             prop_assert_eq!(twice.false_alarms(), 2 * score.false_alarms());
         }
     }

@@ -2,7 +2,7 @@
 //! bias of the sensor.
 
 use super::source::{Errors, Source};
-use crate::numeric::NormalEquations;
+use crate::numeric::{CHANCE, NormalEquations};
 use crate::phase::{Break, parts};
 use crate::scan::{Noise, Track};
 use nalgebra::{Vector2, Vector3};
@@ -10,8 +10,6 @@ use std::ops::Range;
 
 /// Fewest samples of a free stretch. Fewer: a contact that has just begun is taken for one.
 const FEWEST: usize = 40;
-/// Standard deviations within which a value counts as chance.
-const SIGMAS: f64 = 4.0;
 /// How often the first and the last part of a scan are halved where they are not free as a whole, because the kink at the begin of a
 /// contact is small.
 const HALVINGS: usize = 6;
@@ -64,14 +62,14 @@ fn is_free(track: &Track, noise: &Noise, part: Range<usize>, sigmas: &Errors) ->
     (0..3).all(|c| {
         let of = |first: Source| sigmas[first as usize + c];
         let variance = noise.variance[c] * noise.long_run[c];
-        let level = SIGMAS
+        let level = CHANCE
             * (of(Source::BiasF0x).hypot(0.5 * of(Source::DriftF0x)).hypot(of(Source::BowF0x)).powi(2)
                 + variance * inverse[(0, 0)])
                 .sqrt();
         // the slope of half a sine is pi at its ends
         let drift = of(Source::DriftF0x).hypot(std::f64::consts::PI * of(Source::BowF0x)) * half / whole;
-        let slope = SIGMAS * (drift * drift + variance * inverse[(1, 1)]).sqrt();
-        let rest = noise.variance[c] * (1.0 + SIGMAS * (2.0 * noise.long_run[c] / freedom).sqrt());
+        let slope = CHANCE * (drift * drift + variance * inverse[(1, 1)]).sqrt();
+        let rest = noise.variance[c] * (1.0 + CHANCE * (2.0 * noise.long_run[c] / freedom).sqrt());
         // a curved drift bends the line, too
         let bend = of(Source::BowF0x) * (half / whole).powi(2) * 10.0;
         line[(0, c)].abs() <= level && line[(1, c)].abs() <= slope && squares[c] / freedom <= rest + bend * bend
