@@ -2,6 +2,7 @@
 
 use crate::common::{complaint, vibrissa};
 use crate::inspect::{inspected, questions, recording, runs, words};
+use crate::writer::{Endian, F64, Index, Object, segment};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -324,4 +325,85 @@ fn a_slow_sensor_is_tared_before_it_touches() {
     let options = ["--stage-delay", "0", "--write-setup", "sensor.toml"];
     let (found, status) = inspected(directory.path(), &[&FILES[..], &options].concat());
     assert_eq!(status, 0, "{found:#}");
+}
+
+/// The time 0 of files that keep absolute times, s since 1970.
+const EPOCH: f64 = 1.764e9;
+
+/// The rows of the sensor's table: t, Fx, Fy, Fz, Tx, Ty, Tz.
+fn rows(directory: &Path) -> Vec<[f64; 7]> {
+    let text = fs::read_to_string(directory.join("force.csv")).unwrap();
+    let row = |line: &str| line.split(',').map(|cell| cell.parse().ok()).collect::<Option<Vec<f64>>>()?.try_into().ok();
+    text.lines().filter_map(row).collect()
+}
+
+/// The sensor's table as messages of ROS, logged from [`EPOCH`] on.
+fn mcap(directory: &Path) {
+    let text = |text: &str| [&(text.len() as u32).to_le_bytes(), text.as_bytes()].concat();
+    let record = |code: u8, body: Vec<u8>| [vec![code], (body.len() as u64).to_le_bytes().to_vec(), body].concat();
+    let id = 1_u16.to_le_bytes().to_vec();
+    let schema = [id.clone(), text("geometry_msgs/msg/WrenchStamped"), text("ros2msg"), vec![0; 4]].concat();
+    let channel = [id.clone(), id.clone(), text("/wrench"), text("cdr"), vec![0; 4]].concat();
+    let mut bytes = [b"\x89MCAP0\r\n".to_vec(), record(3, schema), record(4, channel)].concat();
+    for [t, wrench @ ..] in rows(directory) {
+        let logged = ((EPOCH as u64) * 1_000_000_000 + (1e9 * t).round() as u64).to_le_bytes();
+        // no time in the header, and a frame without a name
+        let mut message = vec![0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0];
+        wrench.iter().for_each(|value| message.extend(value.to_le_bytes()));
+        bytes.extend(record(5, [id.clone(), vec![0; 4], logged.to_vec(), logged.to_vec(), message].concat()));
+    }
+    bytes.extend(record(15, vec![0; 4]));
+    fs::write(directory.join("force.mcap"), bytes).unwrap();
+}
+
+/// The sensor's table as channels of LabVIEW that begin at [`EPOCH`], with the setup that reads them.
+fn tdms(directory: &Path) {
+    let (rows, endian) = (rows(directory), Endian::Little);
+    let (mut objects, mut raw) = (Vec::new(), Vec::new());
+    for (path, column) in [("/'Measured'/'Fx'", 1), ("/'Measured'/'Fy'", 2), ("/'Measured'/'Tz'", 6)] {
+        let mut object = Object::new(path, Index::Values(F64, rows.len() as u64)).with(endian, "wf_increment", 0.01);
+        let start = [endian.bytes(0, 8), endian.bytes(2_082_844_800 + EPOCH as u128, 8)].concat();
+        object.properties.push(("wf_start_time".to_owned(), 0x44, start));
+        objects.push(object);
+        raw.extend(endian.f64s(&rows.iter().map(|row| row[column]).collect::<Vec<_>>()));
+    }
+    fs::write(directory.join("force.tdms"), segment(endian, 0, &objects, &raw)).unwrap();
+    let columns = "['Fx', 'Fy', 'Tz']";
+    let setup = format!(
+        "[sensor]\nforce_unit = 'N'\ntorque_unit = 'N m'\nchannels = {columns}\n[recording]\ngroup = 'Measured'\ncolumns = {columns}\n"
+    );
+    fs::write(directory.join("labview.toml"), setup).unwrap();
+}
+
+/// A file of ROS or LabVIEW beside a log of the stage that counts from 0 was joined as if both had one clock, and one beside a log with dates had no time in
+/// common with it.
+#[test]
+fn binary_recordings_have_clocks_too() {
+    let directory = tempfile::tempdir().unwrap();
+    let dir = directory.path();
+    for (file, setup) in [("force.mcap", None), ("force.tdms", Some("labview.toml"))] {
+        let options = || {
+            let setup = setup.map_or(["--write-setup", "made.toml"], |setup| ["--setup", setup]);
+            [&[file, "stage.csv", "--rod", "rod.toml"][..], &setup].concat()
+        };
+        two_files(dir, 1.7);
+        mcap(dir);
+        tdms(dir);
+        let (found, status) = inspected(dir, &options());
+        let asked = questions(&found);
+        assert!(status == 2 && (proposed(&asked) - 1.7).abs() < 0.05, "{file}: {found:#}");
+
+        two_files(dir, 0.0);
+        mcap(dir);
+        tdms(dir);
+        let dated = |line: &str| match line.split_once(',') {
+            Some((t, rest)) if t != "t" => format!("{:.2},{rest}\n", EPOCH + t.parse::<f64>().unwrap()),
+            _ => format!("{line}\n"),
+        };
+        let stage: String = fs::read_to_string(dir.join("stage.csv")).unwrap().lines().map(dated).collect();
+        fs::write(dir.join("stage.csv"), stage).unwrap();
+        let (found, status) = inspected(dir, &options());
+        assert!(status == 0 && questions(&found).is_empty(), "{file}: {found:#}");
+        runs(dir, &found);
+    }
 }

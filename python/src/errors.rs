@@ -1,8 +1,9 @@
 //! The library's errors as exceptions with the same texts.
 
-use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyValueError};
+use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use rod_files::SceneError;
+use std::ffi::CString;
 use std::fmt::Display;
 use std::io;
 use vibrissa::contact::Stop;
@@ -26,6 +27,12 @@ pub fn unreadable(source: &io::Error, error: &impl Display) -> PyErr {
         io::ErrorKind::NotFound => PyFileNotFoundError::new_err(error.to_string()),
         _ => PyOSError::new_err(error.to_string()),
     }
+}
+
+/// Warns, as warnings of the category UserWarning.
+pub fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
+    let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
 }
 
 /// `vibrissa.SweepStopped`, with the scan up to there (none for a move of a follower).

@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 use rod_files::{FilmForces, FilmedRod, Setup, channels_of_columns};
 use std::path::PathBuf;
 use vibrissa::reconstruct::{
-    FamilyMember, ForceSettings, Frame, FrameContact, FrameFault, FrameForces, PolePrior, SeenPoint,
+    FamilyMember, ForceSettings, Frame, FrameContact, FrameFault, FrameForces, HiddenBase, PolePrior, SeenPoint,
 };
 
 /// A frame with its number.
@@ -23,6 +23,11 @@ fn of(row: &FrameRow, number: impl Fn(&FrameForces) -> f64) -> f64 {
 /// The same of its first contact.
 fn first(row: &FrameRow, number: impl Fn(&FrameContact) -> f64) -> f64 {
     of(row, |judged| judged.contacts.first().map_or(f64::NAN, &number))
+}
+
+/// The same if the base is hidden.
+fn if_hidden(row: &FrameRow, number: impl Fn(&HiddenBase) -> f64) -> f64 {
+    of(row, |judged| judged.if_hidden.as_ref().map_or(f64::NAN, &number))
 }
 
 fn sigma(row: &FrameRow, k: usize) -> f64 {
@@ -60,6 +65,9 @@ const FRAME: &[Column<FrameRow>] = &[
         name: "shortening",
         get: Get::Float(|row| of(row, |judged| judged.shortening.map_or(f64::NAN, |(share, _)| share))),
     },
+    Column { name: "hidden", get: Get::Float(|row| if_hidden(row, |other| other.length)) },
+    Column { name: "force_if_hidden", get: Get::Float(|row| if_hidden(row, |other| other.force)) },
+    Column { name: "m0z_if_hidden", get: Get::Float(|row| if_hidden(row, |other| other.m0z)) },
 ];
 
 /// A contact: frame, number of the explanation (0 the best one), number of the contact from the base.
@@ -117,7 +125,9 @@ impl PyForces {
     /// ``"family"``: they are not determined separately, ``"several"``: other contacts explain the frame too, ``"not explained"``, or ``"fault"``);
     /// number of ``contacts``; of the one next to the base ``s``, ``x``, ``y`` (m), ``force`` (N), ``sigma_s``, ``sigma_force``; ``f0x``, ``f0y``
     /// (N), ``m0z`` (N m) and their standard deviations; the base ``x0``, ``y0`` (m), ``phi0`` (rad); ``chi2``, ``freedom``, ``p_value``;
-    /// ``shortening``, the share by which a rod of which both ends are seen looks too short. NaN where there is no number, infinite
+    /// ``shortening``, the share by which a rod of which both ends are seen looks too short. If the first point is only taken for the base:
+    /// ``hidden``, the length of the rod that no point shows (m), and ``force_if_hidden`` (N), ``m0z_if_hidden`` (N m), force and moment if that length
+    /// is before the first point. NaN where there is no number, infinite
     /// standard deviations where the frame does not determine it.
     #[getter]
     fn frames<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -335,5 +345,7 @@ pub fn _forces(
     let rod = FilmedRod { rod: rod.rod.clone(), is_stiffness_known: true };
     let settings = ForceSettings { friction, sigma, most_contacts: contacts, pole, most_shortening: shortening };
     let found = running::run(py, || FilmForces::of("frames".into(), all, rest.as_deref(), rod, &settings))?;
-    Ok(PyForces { found: found.map_err(|error| errors::value(format!("rest: {error}")))? })
+    let found = found.map_err(|error| errors::value(format!("rest: {error}")))?;
+    found.base_in_doubt().map_or(Ok(()), |text| errors::warn(py, &text))?;
+    Ok(PyForces { found })
 }

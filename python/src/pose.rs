@@ -1,10 +1,10 @@
 //! Poses of the clamp: three numbers.
 
 use crate::array::Floats;
-use pyo3::exceptions::{PyTypeError, PyUserWarning};
+use crate::errors;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use std::f64::consts::TAU;
-use std::ffi::CString;
 use vibrissa::Pose;
 
 /// Angle (rad) beyond which one is warned: two turns. Half a turn is 180 degrees.
@@ -24,8 +24,7 @@ impl<'py> FromPyObject<'py> for PyPose {
         };
         if phi.is_finite() && phi.abs() > LARGEST {
             let text = format!("phi is {phi:?} rad, more than two turns; angles are in rad, not in degrees");
-            let text = CString::new(text).unwrap_or_default();
-            PyErr::warn(object.py(), &object.py().get_type::<PyUserWarning>(), &text, 1)?;
+            errors::warn(object.py(), &text)?;
         }
         Ok(Self(Pose { x, y, phi }))
     }

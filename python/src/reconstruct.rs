@@ -7,12 +7,10 @@ use crate::rod::PyRod;
 use crate::samples::{SAMPLE, Samples};
 use crate::simulate::model;
 use crate::{errors, running};
-use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyTuple;
 use rod_files::{FittedPoint, Reconstructed, ReconstructionError, Recording, Together};
-use std::ffi::CString;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::{Kink, KinkKind};
 use vibrissa::reconstruct::{
@@ -427,12 +425,6 @@ fn recording_of(samples: &Bound<'_, PyAny>) -> PyResult<Recording> {
     }
 }
 
-/// Warns, as warnings of the category UserWarning.
-fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
-    let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
-    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
-}
-
 /// A reconstruction, with warnings of what does not fit.
 fn told(py: Python<'_>, rod: &PyRod, found: Reconstructed, settings: Settings) -> PyResult<PyReconstruction> {
     let mut doubts: Vec<String> = Vec::new();
@@ -441,7 +433,7 @@ fn told(py: Python<'_>, rod: &PyRod, found: Reconstructed, settings: Settings) -
         doubts.push(format!("recording, units and rod do not fit: {}", findings.join("; ")));
     }
     doubts.extend(found.contradiction().into_iter().chain(found.doubts()));
-    doubts.iter().try_for_each(|text| warn(py, text))?;
+    doubts.iter().try_for_each(|text| errors::warn(py, text))?;
     let rod = rod.clone();
     Ok(PyReconstruction { rod, found, settings, readings: PyOnceLock::new(), reasons: PyOnceLock::new() })
 }
@@ -493,7 +485,7 @@ pub fn reconstruct_together(
     let (found, together) =
         running::run(py, reconstructed)?.map_err(|error: ReconstructionError| errors::value(error))?;
     if let Some(why) = together.and_then(|together| together.contradiction()) {
-        warn(py, &why)?;
+        errors::warn(py, &why)?;
     }
     found.into_iter().map(|one| told(py, rod, one, settings)).collect()
 }

@@ -27,7 +27,7 @@ import vibrissa
 import vibrissa.plot
 from vibrissa.plot._along import _PhaseNames
 from vibrissa.plot._course import course, runs
-from vibrissa.plot._palette import FAINT, MUTED, OTHERS, TRANSITION
+from vibrissa.plot._palette import FAINT, FIRST, MUTED, OTHERS, TRANSITION
 from vibrissa.plot._plane import _outline
 
 Array = npt.NDArray[np.float64]
@@ -101,7 +101,7 @@ def lines_of(ax: Axes) -> list[tuple[str, Array, Array]]:
 def test_colours_are_those_of_the_command() -> None:
     palette = (SCENES.parent / "cli/src/figure/palette.rs").read_text()
     phases = [vibrissa.plot.phase_color(phase) for phase in ["free", "A", "B", "BA", "BB", "BBA", "BBB", "BBBB"]]
-    for color in [*phases, FAINT, MUTED, TRANSITION, *OTHERS[:3]]:
+    for color in [*phases, FAINT, FIRST, MUTED, TRANSITION, *OTHERS[:3]]:
         numbers = ", ".join(str(int(color[k : k + 2], 16)) for k in (1, 3, 5))
         assert f"RGBColor({numbers})" in palette, color
     assert not set(phases) & set(OTHERS)

@@ -85,7 +85,9 @@ def forces(
         How that sensor sits: the table ``[mounting]`` of a setup file. Without it, in the axes of x and y and at the base; it measures the load of
         the rod on it. Without any of its numbers it is an error.
     visible : str
-        Which ends of the rod the points show: ``"base"`` (the first point), ``"tip"`` (the last), ``"both"`` or ``"neither"``.
+        Which ends of the rod the points show: ``"base"`` (the first point), ``"tip"`` (the last), ``"both"`` or ``"neither"``. With ``"base"`` a
+        ``UserWarning`` says by how much forces change if the first point is not the base, unless the points show the rod to its tip or
+        the channels ``base_x``, ``base_y`` say where the base is.
     sigma : float, optional
         Standard deviation of each coordinate of the points, m; found from the frames where it is None, which needs 8 points or more a frame to be
         reliable.

@@ -74,7 +74,7 @@ pub use fit::{
 #[cfg(feature = "std")]
 pub use frames::{
     Axis, Channel, FamilyMember, Film, FilmPole, ForceSettings, Frame, FrameContact, FrameFault, FrameForces,
-    FrameVerdict, Measurand, PolePrior, RestError, RestShape, SeenPoint, forces, rest_shape,
+    FrameVerdict, HiddenBase, Measurand, PolePrior, RestError, RestShape, SeenPoint, forces, rest_shape,
 };
 #[cfg(feature = "std")]
 pub use friction::{Friction, FrictionAlone, FrictionEstimate, Pair, without_friction};

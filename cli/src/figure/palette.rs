@@ -15,8 +15,9 @@ pub(crate) const FAINT: RGBColor = RGBColor(205, 205, 205);
 
 /// Shapes and poses at a transition: not the black of the contour.
 pub(crate) const TRANSITION: RGBColor = RGBColor(51, 34, 136);
-/// The first and the second of two contacts.
-pub(crate) const FIRST: RGBColor = RGBColor(136, 34, 85);
+/// The first and the second of two contacts. The distance of the first from the second, from the phases of one and two contacts, from black and from the greys
+/// is at least 34 in CIELAB, also with red-green blindness (Machado et al. 2009, full severity); that of a wine red from [`MUTED`] is 3.
+pub(crate) const FIRST: RGBColor = RGBColor(119, 51, 238);
 pub(crate) const SECOND: RGBColor = RGBColor(153, 153, 51);
 /// Things that are none of these.
 pub(crate) const OTHERS: [RGBColor; 3] = [RGBColor(51, 34, 136), RGBColor(153, 153, 51), RGBColor(136, 34, 85)];

@@ -5,7 +5,7 @@ use serde::Serialize;
 use vibrissa::reconstruct::{FilmPole, Frame, FrameContact, FrameFault, FrameForces, FrameVerdict, RestShape};
 
 /// Columns of forces.csv.
-pub(super) const COLUMNS: [&str; 24] = [
+pub(super) const COLUMNS: [&str; 27] = [
     "frame",
     "verdict",
     "contacts",
@@ -30,6 +30,9 @@ pub(super) const COLUMNS: [&str; 24] = [
     "phi0",
     "chi2",
     "freedom",
+    "hidden",
+    "force_if_hidden",
+    "m0z_if_hidden",
 ];
 
 /// What numbers of a rod of unknown stiffness, computed with 1 N m^2, are divided by: forces come in E I / L^2, moments in E I / L.
@@ -73,6 +76,13 @@ pub(super) struct FrameRecord {
     shortening: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     sigma_shortening: Option<f64>,
+    /// m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hidden: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    force_if_hidden: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    m0z_if_hidden: Option<f64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     rivals: Vec<Vec<ContactRecord>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -183,6 +193,9 @@ impl FrameRecord {
             p: Some(judged.p_value),
             shortening: judged.shortening.map(|(share, _)| share),
             sigma_shortening: judged.shortening.map(|(_, sigma)| sigma),
+            hidden: judged.if_hidden.map(|other| other.length),
+            force_if_hidden: judged.if_hidden.map(|other| other.force / force),
+            m0z_if_hidden: judged.if_hidden.map(|other| other.m0z / moment),
             rivals: judged.rivals.iter().map(|rival| contacts(rival)).collect(),
             family: judged
                 .family
@@ -236,6 +249,7 @@ impl FrameRecord {
         let Self { f0x, f0y, m0z, sigma_f0x, sigma_f0y, sigma_m0z, x0, y0, phi0, chi2, freedom, .. } = *self;
         row.extend([f0x, f0y, m0z, sigma_f0x, sigma_f0y, sigma_m0z, x0, y0, phi0, chi2].map(cell));
         row.push(freedom.map_or_else(String::new, |freedom| freedom.to_string()));
+        row.extend([self.hidden, self.force_if_hidden, self.m0z_if_hidden].map(cell));
         row
     }
 

@@ -18,6 +18,9 @@ const MUCH_NOISE: f64 = 5e-3;
 const TOO_LONG: f64 = 1.03;
 /// Length of the points along the rod, as a share of the length of the rod, below which it is told which end is taken as seen.
 const WHOLE: f64 = 0.97;
+/// Change of force or moment with the place of the base, as a share, from which on it is reported. A diameter that is 1 % off changes forces by
+/// 4 %: a smaller change is within what is known of the rod.
+const MATTERS: f64 = 0.05;
 
 impl FilmForces {
     /// Frames and verdicts, noise, and the shape at rest.
@@ -112,7 +115,7 @@ impl FilmForces {
         warnings.extend(self.pole_in_doubt());
         warnings.extend(self.less_noise());
         warnings.extend(self.much_noise());
-        warnings.extend(self.part_of_the_rod());
+        warnings.extend(self.base_in_doubt().or_else(|| self.part_of_the_rod()));
         if !self.ignored.is_empty() {
             warnings.push(format!("not used: column {}", self.ignored.join(", ")));
         }
@@ -166,6 +169,33 @@ impl FilmForces {
             format!(
                 "the residuals of the points are {:.1} % of the length, more than the noise of tracked points: are length, shape at rest and scale right?",
                 1e2 * share
+            )
+        })
+    }
+
+    /// Forces that depend on whether the first point is the base of the rod: none if the points show that, the base was measured, or neither force
+    /// nor moment changes by more than 5 %.
+    pub fn base_in_doubt(&self) -> Option<String> {
+        let others = self.film.frames.iter().flatten().filter_map(|judged| Some((judged, judged.if_hidden?)));
+        let [mut forces, mut moments, mut lengths] = [(); 3].map(|()| Vec::new());
+        for (judged, other) in others {
+            forces.push(other.force / judged.contacts.first()?.force - 1.0);
+            moments.push(other.m0z / judged.reactions.m0z - 1.0);
+            lengths.push(1e3 * other.length);
+        }
+        let count = counted(lengths.len(), "frame");
+        let [force, moment, length] = [forces, moments, lengths].map(|mut all| {
+            all.sort_unstable_by(f64::total_cmp);
+            all.get(all.len() / 2).copied()
+        });
+        let (force, moment, length) = (force?, moment?, length?);
+        (force.abs().max(moment.abs()) > MATTERS).then(|| {
+            format!(
+                "the first point is taken for the base. If it is not, and the {length:.2} mm of the rod that no point shows are before it, the force \
+                 changes by {:+.0} % and the moment at the base by {:+.0} % (medians of {count}). Then use --visible tip, or measure the base \
+                 (base_x, base_y with --channels, and an empty first row of each frame)",
+                1e2 * force,
+                1e2 * moment
             )
         })
     }

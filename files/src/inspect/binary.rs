@@ -24,13 +24,6 @@ pub(super) fn tdms(path: &Path, file: &mut InspectedFile) {
     if let Some(fault) = opened.fault() {
         file.fault(None, "file", fault.to_string(), "a file that is complete");
     }
-    file.questions.push(Question {
-        text: "which channels of which group are the gauges, and which calibration converts their values to N and N m?"
-            .to_owned(),
-        answers: vec![
-            "--setup FILE with calibration or matrix in [sensor], and group and columns in [recording]".to_owned(),
-        ],
-    });
 }
 
 /// What an MCAP file holds; the topic of wrenches, if there is one only.

@@ -16,6 +16,11 @@ impl StageLog {
         (rows.len() > 1 && rows.windows(2).all(|pair| pair[0].0 < pair[1].0)).then_some(Self(rows))
     }
 
+    /// With the times from `origin` (s) on.
+    pub fn since(self, origin: f64) -> Self {
+        Self(self.0.into_iter().map(|(t, pose)| (t - origin, pose)).collect())
+    }
+
     /// Times and poses in the order of time.
     pub fn rows(&self) -> &[(f64, Pose)] {
         &self.0

@@ -45,6 +45,7 @@ impl Sensor {
                     feed: open_link(udp, protocol).map_err(|error| failed(Box::new(error)))?,
                     calibration: Some(calibration),
                     name: address.to_string(),
+                    epoch: None,
                 })
             }
             SensorAddress::Serial { path, profile, baud } => {
@@ -64,6 +65,7 @@ impl Sensor {
                     feed: open_link(port, profile.protocol()).map_err(|error| failed(Box::new(error)))?,
                     calibration: Some(calibration),
                     name: address.to_string(),
+                    epoch: None,
                 })
             }
             SensorAddress::File(file) => played::open(file, setup, how),

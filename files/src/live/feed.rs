@@ -41,4 +41,6 @@ pub struct Sensor {
     pub calibration: Option<SensorCalibration>,
     /// Its name for the record.
     pub name: String,
+    /// The time 0 of its samples, s since 1970; none where it is not known, or where they count from 1970 themselves.
+    pub epoch: Option<f64>,
 }

@@ -114,10 +114,9 @@ pub(super) fn head<'a>(
         let chain = SignalChain::new(scaled(), wrench_chain);
         return Ok(Head { chain, samples, tare: "as recorded".into() });
     };
-    let delay = scan.delay().unwrap_or_default().seconds();
     let motion = match motion {
         Some(motion) => motion,
-        None => Motion::new(scan.stage.as_ref(), scan.path.as_ref(), start, delay, &scan.read)?,
+        None => Motion::new(scan, start, sensor.epoch)?,
     };
     if matches!(motion, Motion::Told) {
         return Err(LiveError::NoStage { address: sensor.name.clone() });

@@ -27,6 +27,8 @@ pub use address::{AddressError, SensorAddress};
 pub use error::LiveError;
 pub use feed::{Fed, Feed, Miss, Sensor};
 pub use latency::Latency;
+pub(crate) use motion::origin_of;
 pub use scan::LiveScan;
 pub use stage::{StageDelay, StageDelayError, StageSpec, StageSpecError};
 pub use summary::{End, LiveReport};
+pub(crate) use whole::SensorTimes;

@@ -7,7 +7,7 @@ use std::error::Error as StdError;
 use std::fmt::Display;
 use std::path::Path;
 use vibrissa::hw::recording::mcap::{McapError, McapFile};
-use vibrissa::hw::recording::tdms::{self, TdmsError, TdmsFile, TdmsTime};
+use vibrissa::hw::recording::tdms::{self, TdmsError, TdmsFile, TdmsTime, TdmsTimestamp};
 use vibrissa::hw::recording::{ColumnMap, Recorded, Role, RowFault, Table, TableError, TableProblem};
 use vibrissa::hw::{LinkCounters, RawSample, ReactionSample, Scale, WrenchSample};
 
@@ -17,21 +17,22 @@ struct RecordingFeed {
     handed: u64,
 }
 
-/// The samples of a recording, and their calibration if they have none.
-type Samples = (Vec<Result<Fed, Miss>>, Option<SensorCalibration>);
+/// The samples of a recording, their calibration if they have none, and their time 0, s since 1970, where the file has it beside them.
+type Samples = (Rows, Option<SensorCalibration>, Option<f64>);
+type Rows = Vec<Result<Fed, Miss>>;
 
 /// Opens a recording: TDMS and MCAP by the end of its name, anything else as a table.
 pub(super) fn open(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Sensor, LiveError> {
     let is = |end: &str| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(end));
-    let (samples, calibration) = if is("tdms") {
+    let (samples, calibration, epoch) = if is("tdms") {
         labview(file, setup)
     } else if is("mcap") {
         mcap(file, setup)
     } else {
-        table(file, setup, how)
+        table(file, setup, how).map(|(samples, calibration)| (samples, calibration, None))
     }?;
     let feed = Box::new(RecordingFeed { samples: samples.into_iter(), handed: 0 });
-    Ok(Sensor { feed, calibration, name: address(file) })
+    Ok(Sensor { feed, calibration, name: address(file), epoch })
 }
 
 fn address(file: &Path) -> String {
@@ -88,7 +89,12 @@ fn labview(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
     let names: Vec<&str> = columns.iter().map(String::as_str).collect();
     let samples = tdms::samples(&opened, group.name(), &names, time).map_err(sensor_error::<TdmsError>(file))?;
     let calibration = required_calibration(file, setup)?;
-    Ok((samples.map(|sample| sample.map(Fed::Raw).map_err(of_file(file))).collect(), Some(calibration)))
+    let axis = names
+        .first()
+        .filter(|_| time == TdmsTime::Waveform)
+        .and_then(|name| opened.channel(group.name(), name).ok()?.time_axis().ok());
+    let epoch = axis.and_then(|axis| axis.start).map(TdmsTimestamp::unix_seconds);
+    Ok((samples.map(|sample| sample.map(Fed::Raw).map_err(of_file(file))).collect(), Some(calibration), epoch))
 }
 
 /// Wrenches of a topic.
@@ -104,12 +110,12 @@ fn mcap(file: &Path, setup: &Setup) -> Result<Samples, LiveError> {
     }
     let wrenches = opened.wrenches(topic).map_err(sensor_error::<McapError>(file))?;
     let samples = wrenches.map(|sample| sample.map(of_wrench).map_err(of_file(file)));
-    Ok((samples.collect(), Some(SensorCalibration::Scale(Scale::si()))))
+    Ok((samples.collect(), Some(SensorCalibration::Scale(Scale::si())), Some(opened.origin())))
 }
 
 /// Rows of a table: raw values if the setup has a matrix for them or names their columns; otherwise reactions with poses, wrenches in
 /// the units of the file, or raw values, the first of these that the table contains.
-fn table(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<Samples, LiveError> {
+fn table(file: &Path, setup: &Setup, how: &ReadOptions) -> Result<(Rows, Option<SensorCalibration>), LiveError> {
     let table = Table::read(file, &how.options).map_err(LiveError::Table)?;
     let RecordingSetup { columns, time, .. } = &setup.recording;
     let mut map = how.columns.clone();
@@ -149,11 +155,7 @@ fn telling(error: TableError) -> Option<TableError> {
     (!matches!(error.problem, TableProblem::Missing { .. })).then_some(error)
 }
 
-fn rows<S: Recorded>(
-    table: &Table,
-    map: &ColumnMap,
-    fed: impl Fn(S) -> Fed,
-) -> Result<Vec<Result<Fed, Miss>>, TableError> {
+fn rows<S: Recorded>(table: &Table, map: &ColumnMap, fed: impl Fn(S) -> Fed) -> Result<Rows, TableError> {
     let fault = |error: RowFault| Miss::Fault(format!("{}: {error}", table.file()));
     Ok(table.samples::<S>(map)?.map(|row| row.map(&fed).map_err(fault)).collect())
 }

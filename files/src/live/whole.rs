@@ -47,6 +47,34 @@ impl LiveScan {
     }
 }
 
+/// The times of a sensor's recording.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SensorTimes {
+    /// First and last time, s.
+    pub span: [f64; 2],
+    /// Mean step, s.
+    pub step: f64,
+    /// The time 0, s since 1970, where the file has it beside the times.
+    pub epoch: Option<f64>,
+}
+
+impl SensorTimes {
+    /// Those of a file; none where it cannot be read.
+    pub(crate) fn read(file: &Path, scan: &LiveScan) -> Option<Self> {
+        let mut sensor = Sensor::open(&SensorAddress::File(file.to_path_buf()), &scan.setup, &scan.read).ok()?;
+        let times: Vec<f64> = std::iter::from_fn(|| sensor.feed.next())
+            .flatten()
+            .map(|fed| match fed {
+                Fed::Raw(raw) => raw.host_time,
+                Fed::Reactions(sample) => sample.t,
+            })
+            .collect();
+        let (first, last) = (*times.first()?, *times.last()?);
+        let step = (last - first) / (times.len() - 1).max(1) as f64;
+        Some(Self { span: [first, last], step, epoch: sensor.epoch })
+    }
+}
+
 fn row(place: Place, sample: Result<ReactionSample, String>) -> Row {
     let fault = |pose, problem| RowFault { place, pose, problem };
     let sample = sample.map_err(|text| fault(None, RowProblem::Sensor(text)))?;

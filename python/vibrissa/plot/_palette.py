@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["FAINT", "INK", "MUTED", "OTHERS", "SOLID", "TRANSITION", "phase_color"]
+__all__ = ["FAINT", "FIRST", "INK", "MUTED", "OTHERS", "SOLID", "TRANSITION", "phase_color"]
 
 INK = "#000000"
 MUTED = "#5a5a5a"
@@ -12,6 +12,9 @@ SOLID = "#e6e6e6"
 TRANSITION = "#332288"
 # Passes, branches, contacts of a contour: things that are no phases. The first ones of the muted colours of Tol (2021).
 OTHERS = ["#332288", "#999933", "#882255", "#44aa99"]
+
+# The first of two contacts: told from the greys and the phases with red-green blindness, too.
+FIRST = "#7733ee"
 
 _FREE = "#969696"
 # Okabe and Ito (2008): the number of contacts, and whether the last one is at the tip.

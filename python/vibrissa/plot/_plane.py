@@ -14,7 +14,7 @@ from matplotlib.path import Path
 
 from .._core import Composite, Elastica, Reconstruction, Scan, single
 from ._course import Array
-from ._palette import FAINT, INK, MUTED, OTHERS, SOLID, TRANSITION, phase_color
+from ._palette import FAINT, FIRST, INK, MUTED, OTHERS, SOLID, TRANSITION, phase_color
 from ._style import AT_TRANSITION, COLUMN, CONTOUR, LINE, SHAPE, legend, name_axis, new_axes, small
 
 # Room for the numbers and names of axes, and least and largest height of a figure, mm.
@@ -305,7 +305,7 @@ def _draw_truth(ax: Axes, objects: Sequence[Composite], window: Window) -> None:
 
 
 # The contacts of a contour: colours and names.
-_KINDS = {"single": (OTHERS[0], "one contact"), "first": (OTHERS[2], "first of two"), "second": (OTHERS[1], "second of two")}
+_KINDS = {"single": (OTHERS[0], "one contact"), "first": (FIRST, "first of two"), "second": (OTHERS[1], "second of two")}
 
 
 def _draw_fit(ax: Axes, found: Reconstruction) -> None:

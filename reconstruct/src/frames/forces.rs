@@ -1,8 +1,9 @@
 //! Forces on a rod from a film of it.
 
-use super::candidate::{Candidate, MOST_STEPS, solve};
+use super::candidate::{MOST_STEPS, solve};
 use super::check::check;
 use super::choose::{Allowed, Chosen, choose};
+use super::ends::{SIGMAS, hidden_base, shortening};
 use super::family::family;
 use super::fault::FrameFault;
 use super::judge::verdict;
@@ -125,8 +126,12 @@ fn of_frame<R: PhysicalRod>(
     {
         return Err(FrameFault::OutOfPlane { shortening: 1e2 * share, most: 1e2 * settings.most_shortening });
     }
-    let mut judged =
-        FrameForces { shortening, ..FrameForces::of(&best, FrameVerdict::Determined, contacts(&best, &units), &units) };
+    let if_hidden = hidden_base(rod.model(), &best, &observed, allowed, &units);
+    let mut judged = FrameForces {
+        shortening,
+        if_hidden,
+        ..FrameForces::of(&best, FrameVerdict::Determined, contacts(&best, &units), &units)
+    };
     for moved in pole.map(FilmPole::moved).into_iter().flatten() {
         observed.pole = Some(moved.in_lengths(&units, exact));
         if let Some(other) = solve(rod.model(), &observed, &best.start(), allowed.friction, MOST_STEPS) {
@@ -165,10 +170,4 @@ fn is_explained_reversed<R: PhysicalRod>(
 ) -> bool {
     let chosen = choose(rod.model(), &Observed::new(&frame.reversed(), rod, sigma), Allowed::of(settings));
     chosen.is_some_and(|chosen| chosen.best.explains() && chosen.best.chi_squared + CLEARLY < forward)
-}
-
-/// By how much a rod of which both ends are seen looks too short (share of its length), with its standard deviation.
-fn shortening(best: &Candidate, observed: &Observed) -> Option<(f64, f64)> {
-    let ([true, true], [first, .., last]) = (observed.ends, &observed.dots[..]) else { return None };
-    Some((1.0 - best.feet.last()?, first.sigma.hypot(last.sigma)))
 }

@@ -10,6 +10,7 @@
 mod candidate;
 mod check;
 mod choose;
+mod ends;
 mod family;
 mod fault;
 mod forces;
@@ -32,6 +33,7 @@ mod sight;
 mod start;
 mod verdict;
 
+pub use ends::HiddenBase;
 pub use fault::FrameFault;
 pub use forces::forces;
 pub use observation::{Axis, Channel, Frame, Measurand, SeenPoint};

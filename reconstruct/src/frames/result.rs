@@ -1,6 +1,7 @@
 //! What a frame and a film tell, in SI units.
 
 use super::candidate::Candidate;
+use super::ends::HiddenBase;
 use super::fault::FrameFault;
 use super::pole::FilmPole;
 use super::problem::reactions;
@@ -79,6 +80,8 @@ pub struct FrameForces {
     pub p_value: f64,
     /// Apparent shortening of a rod of which both ends are seen, as a share of its length, with its standard deviation.
     pub shortening: Option<(f64, f64)>,
+    /// The forces if the base is hidden, where the first point is only taken for it and the points do not show all of the rod.
+    pub if_hidden: Option<HiddenBase>,
     /// Other contacts that explain the frame too.
     pub rivals: Vec<Vec<FrameContact>>,
     /// Places and forces that explain the frame, where they are not told apart.
@@ -105,6 +108,7 @@ impl FrameForces {
             freedom: shape.freedom.max(0) as usize,
             p_value: shape.p_value(),
             shortening: None,
+            if_hidden: None,
             rivals: Vec::new(),
             family: Vec::new(),
         }

@@ -11,6 +11,7 @@ use crate::inspect::stage_log::StageLog;
 use crate::inspect::standing::{Contradiction, Standing};
 use crate::inspect::timed::{Timed, changes};
 use crate::inspect::values::factor;
+use crate::live::{SensorTimes, origin_of};
 use crate::{LiveScan, StageDelay};
 use std::path::Path;
 use vibrissa::hw::recording::Role;
@@ -43,18 +44,26 @@ pub(super) struct Clocks {
     short: f64,
     /// The delay that was stated, s.
     stated: Option<f64>,
+    /// What is subtracted from the times of the stage, s: the time 0 of a sensor that counts from the start of its file.
+    origin: f64,
 }
 
 impl Clocks {
-    /// None where the times of one are not known.
-    pub fn of(sensor: &Look, stage: &Look, options: &InspectOptions) -> Option<Self> {
+    /// None where the times of one are not known. `scan` reads the times of a sensor's file that is no table.
+    pub fn of(sensor: &Look, stage: &Look, scan: Option<&LiveScan>, options: &InspectOptions) -> Option<Self> {
         let step = |look: &Look| {
             let column = look.table.as_ref().and_then(|table| table.1.of(Role::Time));
             column.map_or(0.0, |column| (factor(column) * column.values.step).abs())
         };
-        let (step, short) = (step(sensor).max(step(stage)), step(sensor).min(step(stage)));
         let stated = stage_delay(options).map(StageDelay::seconds);
-        Some(Self { sensor: sensor.times()?, stage: stage.times()?, step, short, stated })
+        let of_sensor = match sensor.table {
+            Some(_) => SensorTimes { span: sensor.times()?, step: step(sensor), epoch: None },
+            None => SensorTimes::read(&sensor.path, scan?)?,
+        };
+        let (step, short) = (of_sensor.step.max(step(stage)), of_sensor.step.min(step(stage)));
+        let times = stage.times()?;
+        let origin = origin_of(times[0], of_sensor.epoch);
+        Some(Self { sensor: of_sensor.span, stage: times.map(|t| t - origin), step, short, stated, origin })
     }
 
     /// Whether they have times in common.
@@ -90,7 +99,7 @@ impl Clocks {
         options: &InspectOptions,
     ) -> f64 {
         let stated = self.stated.unwrap_or(0.0);
-        let Some(log) = log else { return stated };
+        let Some(log) = log.map(|log| log.since(self.origin)) else { return stated };
         let Ok(samples) = scan.standing(path, log.at(0.0)) else { return stated };
         let sensed: Vec<Timed> = samples.iter().map(|sample| (sample.t, sample.reactions)).collect();
         let found = self.search(&sensed, &log, columns, options);

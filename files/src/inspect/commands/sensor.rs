@@ -39,11 +39,18 @@ pub(super) fn sensor(
     }
     let is_scale_missing = looks[k].content == Content::Raw && options.setup.is_none();
     if is_scale_missing && looks[k].report.questions.is_empty() {
+        let (which, group) = match looks[k].table {
+            Some(_) => ("which calibration converts these raw values", ""),
+            None => (
+                "which channels of which group are the gauges, and which calibration converts their values",
+                "group and ",
+            ),
+        };
         looks[k].report.questions.push(Question {
-            text: "which calibration converts these raw values to N and N m?".to_owned(),
-            answers: vec![
-                "--setup FILE with a calibration or a matrix in [sensor], and columns in [recording]".to_owned(),
-            ],
+            text: format!("{which} to N and N m?"),
+            answers: vec![format!(
+                "--setup FILE with a calibration or a matrix in [sensor], and {group}columns in [recording]"
+            )],
         });
     }
     if looks[k].content == Content::Wrench {
@@ -70,13 +77,13 @@ pub(super) fn sensor(
     let mut of_stage = stage.map(|stage| looks[stage].proposal.clone());
     let is_settled = is_answered(&looks[k].report) && stage.is_none_or(|stage| is_answered(&looks[stage].report));
     let mut reads = false;
-    let clocks = stage.and_then(|stage| Clocks::of(&looks[k], &looks[stage], options));
+    let given = || options.setup.as_ref().map(|given| given.1.clone());
+    let made = |text: &SetupText| Setup::parse("setup.toml".as_ref(), &text.text()).ok();
+    let first = given().or_else(|| if setup.is_needed() { made(&setup) } else { Some(Setup::default()) });
+    let scan = first.and_then(|first| scan(options, first, spec, combined(&proposal, of_stage.as_ref())));
+    let clocks = stage.and_then(|stage| Clocks::of(&looks[k], &looks[stage], scan.as_ref(), options));
     if is_settled {
-        let given = || options.setup.as_ref().map(|given| given.1.clone());
-        let made = |text: &SetupText| Setup::parse("setup.toml".as_ref(), &text.text()).ok();
-        let read = combined(&proposal, of_stage.as_ref());
-        let first = given().or_else(|| if setup.is_needed() { made(&setup) } else { Some(Setup::default()) });
-        if let Some(mut found) = first.and_then(|first| scan(options, first, spec.clone(), read.clone())) {
+        if let Some(mut found) = scan {
             let columns = stage.and_then(|stage| columns(&looks[stage], options));
             if let (Some(clocks), Some(columns)) = (&clocks, &columns) {
                 let log = stage.and_then(|stage| stage_log(&looks[stage]));

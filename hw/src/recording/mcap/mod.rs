@@ -107,6 +107,12 @@ impl<'a> McapFile<'a> {
         self.fault.as_ref()
     }
 
+    /// The time 0 of the wrenches, s since 1970: when the first message was logged. At today's dates to 0.2 us.
+    #[expect(clippy::cast_precision_loss, reason = "the accuracy is stated")]
+    pub fn origin(&self) -> f64 {
+        self.origin as f64 / 1e9
+    }
+
     /// The topics, in their order.
     pub fn topics(&self) -> &[McapTopic] {
         &self.topics
