@@ -12,6 +12,13 @@ const FEWEST: usize = 2;
 /// Cells of an infinite range: neighbouring samples differ by less than 7 % of their distance from the middle.
 const CELLS_INFINITE: usize = 512;
 
+/// Parts of a cell in which the distance may have several minima, and how often they are divided again: minima that are not told apart then differ by less than
+/// a part in 1e14 of the cell.
+const PARTS: usize = 8;
+const SPLITS: usize = 4;
+/// Least rate of the slope in a cell over the larger one at its ends at which a cell has one minimum.
+const FLAT: f64 = 0.1;
+
 /// Steps towards the extremum of the slope within a cell. An extremum that they miss is too flat to change the result.
 const DIP_STEPS: usize = 12;
 
@@ -72,11 +79,10 @@ pub(crate) fn closest_by(
     let mut left = first;
     for cell in 1..=cells {
         let right = probe(range.at(cell as f64 / cells as f64));
-        if let Some((low, high)) = falls_then_rises(&probe, left, right) {
-            let foot = refine(&probe, low, high);
-            if foot.distance < best.distance {
-                (best, interior) = (foot, foot.t < range.to);
-            }
+        if let Some(foot) = foot(&probe, left, right, SPLITS)
+            && foot.distance < best.distance
+        {
+            (best, interior) = (foot, foot.t < range.to);
         }
         left = right;
     }
@@ -96,6 +102,36 @@ fn cells(whole: Range, range: Range) -> usize {
             ((CELLS as f64 * share).ceil() as usize).clamp(FEWEST, CELLS)
         }
     }
+}
+
+/// The minimum of the distance in the cell from `left` to `right`, the nearest where it has several; none where it has none.
+fn foot(probe: &impl Fn(f64) -> Probe, left: Probe, right: Probe, splits: usize) -> Option<Probe> {
+    if splits == 0 || !may_have_several(left, right) {
+        return falls_then_rises(probe, left, right).map(|(low, high)| refine(probe, low, high));
+    }
+    let cell = Range { from: left.t, to: right.t };
+    let ends: [Probe; PARTS + 1] = std::array::from_fn(|k| match k {
+        0 => left,
+        PARTS => right,
+        _ => probe(cell.at(k as f64 / PARTS as f64)),
+    });
+    let feet = ends.windows(2).filter_map(|pair| foot(probe, pair[0], pair[1], splits - 1));
+    feet.min_by(|one, other| one.distance.total_cmp(&other.distance))
+}
+
+/// Whether the slope, as a cubic from its values and rates at the ends of a cell, rises at both but falls, or hardly rises, between them, near 0: then the
+/// distance may have a maximum beside a minimum, as near a centre of curvature.
+fn may_have_several(left: Probe, right: Probe) -> bool {
+    let (length, steepest) = (right.t - left.t, left.rate.max(right.rate));
+    if left.rate.min(right.rate) <= 0.0 || left.slope > steepest * length || right.slope < -steepest * length {
+        return false;
+    }
+    let mean = (right.slope - left.slope) / length;
+    // the rate is left.rate + linear s + square s^2 for s from 0 to 1
+    let (square, linear) =
+        (3.0 * (left.rate + right.rate - 2.0 * mean), 6.0 * mean - 4.0 * left.rate - 2.0 * right.rate);
+    let is_inside = square > 0.0 && linear < 0.0 && -linear < 2.0 * square;
+    is_inside && left.rate - linear * linear / (4.0 * square) < FLAT * steepest
 }
 
 /// Two probes in the cell from `left` to `right` between which the distance has a minimum, if it has one.
@@ -209,7 +245,7 @@ pub(crate) fn bounds(frame: impl Fn(f64) -> Frame, range: Range) -> Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Contour, Graph};
+    use crate::{Contour, DualNum, Graph};
 
     #[test]
     fn a_maximum_at_the_end_of_a_cell_does_not_hide_the_minimum() {
@@ -219,6 +255,20 @@ mod tests {
             let closest = parabola.closest(0.0, 0.5 + e);
             assert!((closest.gap.abs() - (0.25 + e).sqrt()).abs() < 1e-15, "{e}: {closest:?}");
             assert!((closest.t.abs() - e.sqrt()).abs() < 1e-9, "{e}: {closest:?}");
+        }
+    }
+
+    #[test]
+    fn the_nearer_of_two_minima_in_a_cell_is_found() {
+        // just beyond the centre of curvature of the crest and beside its axis: a maximum between two minima in one cell of 96
+        let (a, b): (f64, f64) = (1.3910512260179702, 2.2320789384322715);
+        let crest = Graph::new(Range { from: -0.5, to: 3.5 }, move |x| (x * b).sin() * a).unwrap();
+        let axis = std::f64::consts::FRAC_PI_2 / b;
+        for aside in [-1e-6, -1e-9, 1e-9, 1e-6] {
+            for beyond in [1e-8, 1e-6, 1e-4, 2e-3] {
+                let closest = crest.closest(axis + aside, a - 1.0 / (a * b * b) - beyond);
+                assert!(closest.t != axis && (closest.t > axis) == (aside > 0.0), "{aside} {beyond}: {closest:?}");
+            }
         }
     }
 
