@@ -202,6 +202,8 @@ pub(super) struct FitRecord {
     chi_squared: Option<f64>,
     degrees_of_freedom: Option<f64>,
     p_value: Option<f64>,
+    /// Relative variance of the variance of the noise.
+    noise_spread: Option<f64>,
     /// Share of the blocks of samples at whose poses the model has no state.
     unreached: Option<f64>,
     /// Samples that are left out because the free rod rings after a jump.
@@ -307,6 +309,7 @@ impl FitRecord {
             chi_squared: Some(goodness.chi_squared),
             degrees_of_freedom: Some(goodness.degrees_of_freedom),
             p_value: Some(goodness.p_value),
+            noise_spread: Some(goodness.noise_spread),
             unreached: Some(goodness.unreached),
             ringing: Some(fit.ringing),
             farthest_error: goodness

@@ -3,7 +3,7 @@
 use super::candidate::{MOST_STEPS, solve};
 use super::check::check;
 use super::choose::{Allowed, Chosen, choose};
-use super::ends::{SIGMAS, hidden_base, shortening};
+use super::ends::{hidden_base, shortening};
 use super::family::family;
 use super::fault::FrameFault;
 use super::judge::verdict;

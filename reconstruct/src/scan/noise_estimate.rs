@@ -73,9 +73,10 @@ const ROUNDING: f64 = 1.0 / (1u64 << 52) as f64;
 /// It is estimated from the residuals of quartics over short windows. Left out are windows in which a kink, a jump or an outlier
 /// makes the residuals stand out, windows with values that are not finite, and windows without any residual, unless all are.
 ///
-/// On 85,000 samples of white noise or AR(1) noise of correlations from -0.4 to 0.45 the standard deviation is right to 1 % and
+/// Its correlation is that of an autoregressive process. On 85,000 samples of white noise or AR(1) noise of correlations from -0.4 to 0.45 the standard deviation is right to 1 % and
 /// `long_run` to 8 %. Power at longer times (drift, low-pass filters, hum) is added where it
-/// exceeds that of the windows and does not grow as a smooth signal does; its `long_run` is right to a factor of 2 or 3. The standard deviation is at least the rounding of the largest
+/// exceeds that of the windows and does not grow as a smooth signal does; its `long_run` is right to a factor of 2 or 3. Of 500 samples,
+/// sigma sqrt(long_run) is 0.7 to 1.4 times the truth in 80 % of the cases of white noise, and 0.45 to 1.4 times of AR(1) noise of 0.45. The standard deviation is at least the rounding of the largest
 /// sample, and at least q / sqrt 12 where most differences of neighbours are multiples of a quantum q. For fewer than 8 samples
 /// the standard deviation about their mean is returned.
 ///
