@@ -4,11 +4,14 @@ use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::guide;
 use crate::recording_arguments::{Moved, Written};
 use crate::values::Values;
-use crate::values::{degrees, directory, friction, no_quiet, not_negative, number, positive, seed, values};
+use crate::values::{
+    degrees, directory, friction, largest_stress, no_quiet, not_negative, number, positive, rectangle, seed, values,
+};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use rod_files::{SensorAddress, Speed, StageDelay, Whisker};
+use rod_files::{LargestStress, SensorAddress, Speed, StageDelay, Whisker};
 use std::path::PathBuf;
+use vibrissa::plan::Rectangle;
 use vibrissa::reconstruct::Friction;
 use vibrissa_cli::{FakeProtocol, FirstScene};
 
@@ -82,7 +85,10 @@ Choose the next scans of an object by what a reconstruction knows of it: expecte
 Objects that agree with the fitted contour are drawn, and straight scans at all distances and angles are swept past each of them, without
 friction. Scans are taken one after the other, each time the one that adds most to the length of the touched contour. Together they touch at
 least 63 % of what the best scans would. A scan whose clamp runs into one of the drawn objects, or that exceeds --stress, is not taken. Writes
-candidates.csv, the most promising first, plan.json and plan.svg.";
+candidates.csv, the most promising first, plan.json and plan.svg.
+
+With --box nothing is known but that the object is in the box: the first scans go through it with the tip of the rod, and the clamp stays outside of it.
+Each scan is for the case that those before it touched nothing. Writes plan.json and plan.svg.";
 
 const REACH: &str = "\
 Find which parts of the objects of a scene straight scans touch with one contact, with several, or never, on all cores.
@@ -225,7 +231,12 @@ pub enum Command {
 #[derive(Debug, Args)]
 pub struct PlanArguments {
     /// Directory of `vibrissa reconstruct`, with the fitted contour (fitted.csv)
-    pub result: PathBuf,
+    #[arg(required_unless_present = "bounds")]
+    pub result: Option<PathBuf>,
+    /// In place of a result: a box around an object of which nothing else is known, m. Gives the first scans, through space of which nothing is known
+    #[arg(long = "box", value_name = "X0,Y0,X1,Y1", value_parser = rectangle, allow_hyphen_values = true,
+        conflicts_with_all = ["result", "paths", "distances", "noise", "rate", "speed", "hypotheses", "seed"])]
+    pub bounds: Option<Rectangle>,
     /// The rod, a TOML file with the table [rod] of a scene, or a scene
     #[arg(long, value_name = "FILE")]
     pub rod: PathBuf,
@@ -236,12 +247,15 @@ pub struct PlanArguments {
     /// Directions of the rod at its clamp, degrees, in the same form [default: 24 all around]
     #[arg(long, value_name = "DEGREES", value_parser = values, allow_hyphen_values = true)]
     pub angles: Option<Values>,
+    /// Further scans to judge, a TOML file with tables [[scan]] (distance, angle, pass) or [[path]] (from, angle, and to, or pivot and turn)
+    #[arg(long, value_name = "FILE")]
+    pub paths: Option<PathBuf>,
     /// Most scans to choose
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = number, allow_negative_numbers = true)]
     pub scans: usize,
-    /// Largest bending stress that the rod bears, Pa [default: any]
-    #[arg(long, value_name = "PA", value_parser = positive, allow_negative_numbers = true)]
-    pub stress: Option<f64>,
+    /// Largest bending stress that the rod bears, Pa, or `any` [default: yield_stress of the rod]
+    #[arg(long, value_name = "PA", value_parser = largest_stress, allow_negative_numbers = true)]
+    pub stress: Option<LargestStress>,
     /// The noise of the sensor, a TOML file as for `simulate`: predicts standard deviations
     #[arg(long, value_name = "FILE")]
     pub noise: Option<PathBuf>,

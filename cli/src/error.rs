@@ -110,7 +110,16 @@ impl Error {
     /// Whether the value of an option is wrong, as opposed to a file or a device.
     pub fn is_of_options(&self) -> bool {
         match self {
-            Self::Contour(_) | Self::Plan(_) | Self::Option(_) | Self::Film(FilmError::NoSensor { .. }) => true,
+            Self::Contour(_)
+            | Self::Plan(_)
+            | Self::PlanFile(
+                PlanFileError::Plan(_)
+                | PlanFileError::Explore(_)
+                | PlanFileError::NoStress
+                | PlanFileError::NoDiameter,
+            )
+            | Self::Option(_)
+            | Self::Film(FilmError::NoSensor { .. }) => true,
             Self::Simulate(error)
             | Self::FakeSensor(FakeError::Simulation(error))
             | Self::Budget(BudgetError::Simulation(error))

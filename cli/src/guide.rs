@@ -55,6 +55,8 @@ pub const PLAN: &str = "\
 Example:
   vibrissa reconstruct recording.csv --rod scene.toml --out result
   vibrissa plan result --rod scene.toml --noise noise.toml --stress 8e8 --out next
+  vibrissa plan result --rod scene.toml --paths scans.toml --stress 8e8 --out next
+  vibrissa plan --box=-0.03,0.0,0.03,0.05 --rod scene.toml --stress 8e8 --out first
 
 Next: open plan.svg in a browser, make the first scan of plan.json, and reconstruct both recordings together.";
 

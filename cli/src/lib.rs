@@ -27,6 +27,7 @@ pub use inspect_text::inspection_text;
 pub use merged::Merged;
 pub use paper::{Paper, PaperError, PaperScan};
 pub use results::{
-    WriteError, write_elastica, write_film, write_plan, write_profiles, write_reach, write_reconstruction, write_sweep,
+    WriteError, write_approaches, write_elastica, write_film, write_plan, write_profiles, write_reach,
+    write_reconstruction, write_sweep,
 };
 pub use shapes::shapes_list;

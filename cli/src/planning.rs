@@ -4,10 +4,13 @@ use crate::arguments::{PlanArguments, ReachArguments};
 use crate::error::Error;
 use crate::progress::Progress;
 use crate::{read_scene, say, signals, warn};
-use rod_files::{PlanRequest, Planned, Staged, read_calibrated_rod, read_known_contours, read_noise};
+use rod_files::{
+    Approaches, PlanRequest, Planned, Staged, read_calibrated_rod, read_known_contours, read_noise, read_scans,
+};
 use std::path::Path;
 use std::process::ExitCode;
-use vibrissa_cli::{write_plan, write_reach};
+use vibrissa::plan::Candidate;
+use vibrissa_cli::{write_approaches, write_plan, write_reach};
 
 /// What may be done with a scene that has friction.
 const FRICTION: &str = "take it away: `reach` computes contacts without friction";
@@ -29,10 +32,7 @@ pub fn reach(arguments: ReachArguments) -> Result<ExitCode, Error> {
         return Ok(caught.status());
     }
     write_reach(&found, &staged)?;
-    staged.publish()?;
-    say(&found.report());
-    say(&format!("written to {}\n", out.display()));
-    Ok(ExitCode::SUCCESS)
+    published(staged, &found.report(), &out)
 }
 
 /// Computes on so many threads.
@@ -46,7 +46,9 @@ fn run_on(jobs: Option<usize>) {
 pub fn plan(arguments: PlanArguments) -> Result<ExitCode, Error> {
     let PlanArguments {
         result,
+        bounds,
         rod,
+        paths,
         distances,
         angles,
         scans,
@@ -60,17 +62,30 @@ pub fn plan(arguments: PlanArguments) -> Result<ExitCode, Error> {
         jobs,
     } = arguments;
     run_on(jobs);
-    let known = read_known_contours(&result)?;
     let calibrated = read_calibrated_rod(&rod)?;
-    let inputs = [rod, result.join("fitted.csv")].into_iter().chain(noise.clone()).collect();
+    let angles = angles.map(|angles| angles.0.into_iter().map(f64::to_radians).collect());
+    let largest_stress = stress.unwrap_or_default();
+    if let Some(bounds) = bounds {
+        let found = Approaches::new(&calibrated.rod, bounds, angles, scans, largest_stress)?;
+        let staged = Staged::new(&out)?.keeping(vec![rod]);
+        write_approaches(&found, &staged)?;
+        return published(staged, &found.report(), &out);
+    }
+    // without a box there is one: the arguments say so
+    let result = result.unwrap_or_default();
+    let known = read_known_contours(&result)?;
+    let own = paths.as_ref().map(|file| read_scans(file, calibrated.rod.length())).transpose()?.unwrap_or_default();
+    let inputs = [rod, result.join("fitted.csv")].into_iter().chain(noise.clone()).chain(paths).collect();
     let request = PlanRequest {
         distances: distances.map(|distances| distances.0),
-        angles: angles.map(|angles| angles.0.into_iter().map(f64::to_radians).collect()),
+        angles,
+        scans: own.scans,
+        paths: own.paths.iter().map(|path| Candidate { scan: None, path: path.path() }).collect(),
         noise: noise.map(|file| read_noise(&file)).transpose()?,
         rate,
         speed,
         count: scans,
-        most_stress: stress,
+        largest_stress,
         hypotheses,
         seed,
     };
@@ -85,8 +100,13 @@ pub fn plan(arguments: PlanArguments) -> Result<ExitCode, Error> {
         return Ok(caught.status());
     }
     write_plan(&found, &staged)?;
+    published(staged, &found.report(), &out)
+}
+
+/// Shows the files, and says what is in them.
+fn published(staged: Staged, report: &str, out: &Path) -> Result<ExitCode, Error> {
     staged.publish()?;
-    say(&found.report());
+    say(report);
     say(&format!("written to {}\n", out.display()));
     Ok(ExitCode::SUCCESS)
 }

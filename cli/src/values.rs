@@ -1,8 +1,10 @@
 //! The values of options, read and checked.
 
 use clap::{Arg, ArgAction};
+use rod_files::LargestStress;
 use std::path::PathBuf;
 use vibrissa::hw::recording::Role;
+use vibrissa::plan::Rectangle;
 use vibrissa::reconstruct::Friction;
 
 /// In place of the global `--quiet` where there is no report: taken, not listed.
@@ -24,6 +26,23 @@ pub fn number(text: &str) -> Result<usize, String> {
 pub fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite() && *number > 0.0);
     number.ok_or_else(|| "expected a number greater than 0".to_owned())
+}
+
+/// A stress, or any.
+pub fn largest_stress(text: &str) -> Result<LargestStress, String> {
+    match text {
+        "any" => Ok(LargestStress::Any),
+        _ => positive(text).map(LargestStress::Given).map_err(|expected| format!("{expected}, Pa, or `any`")),
+    }
+}
+
+/// The corners of a box.
+pub fn rectangle(text: &str) -> Result<Rectangle, String> {
+    let numbers = text.split(',').map(|text| text.trim().parse().ok().filter(|number: &f64| number.is_finite()));
+    match numbers.collect::<Option<Vec<f64>>>().as_deref() {
+        Some(&[x, y, to_x, to_y]) if x < to_x && y < to_y => Ok(Rectangle { low: [x, y], high: [to_x, to_y] }),
+        _ => Err("expected x0,y0,x1,y1, m: the lower left corner and the upper right one".to_owned()),
+    }
 }
 
 /// A number that is not negative.

@@ -1,9 +1,10 @@
 //! `vibrissa plan`: the next scans, and the precision that they will have, against recordings.
 
 use crate::common::vibrissa;
-use rod_files::{PlanRequest, Scene, read_known_contours, read_noise};
+use rod_files::{LargestStress, PlanRequest, Scene, read_known_contours, read_noise};
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 use vibrissa::plan::{Candidate, Measurement, PlanSettings, plan};
 use vibrissa::reconstruct::Knowledge;
 
@@ -35,11 +36,13 @@ fn ratios(known: &Path, found: &Path, file: &Path, noise: &Path) -> [f64; 3] {
     let request = PlanRequest {
         distances: None,
         angles: None,
+        scans: Vec::new(),
+        paths: Vec::new(),
         noise: None,
         rate: 500.0,
         speed: 0.01,
         count: 1,
-        most_stress: None,
+        largest_stress: LargestStress::Any,
         hypotheses: 0,
         seed: 0,
     };
@@ -51,7 +54,7 @@ fn ratios(known: &Path, found: &Path, file: &Path, noise: &Path) -> [f64; 3] {
     );
     let settings =
         PlanSettings { hypotheses: 0, measurement: Some(measurement), speed: request.speed, ..PlanSettings::default() };
-    let candidate = Candidate { scan: None, path: scene.path };
+    let candidate = Candidate { scan: None, path: Arc::new(scene.path) };
     let plan = plan(&scene.rod, &known, &[candidate], &settings, &|_| true).unwrap();
     let hypothesis = &plan.hypotheses[0];
     let mut ratios = Vec::new();
@@ -93,16 +96,38 @@ fn scans_are_chosen_and_their_precision_is_that_of_a_recording() {
         "60:120:3",
         "--distances",
         "0.03,0.06",
+        "--paths",
+        "scans.toml",
     ];
+    let scans = "[[scan]]\ndistance = 0.05\nangle = 90\npass = \"left\"\n\n\
+                 [[path]]\nfrom = [0.15, -0.03]\nangle = 90\npivot = [0.05, -0.03]\nturn = -30\n";
+    fs::write(directory.path().join("scans.toml"), scans).unwrap();
+    // the rod has a diameter, and no yield stress
     let output = vibrissa(directory.path(), &arguments);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(!output.status.success() && message.contains("expected the yield_stress of its material"), "{message}");
+    let output = vibrissa(directory.path(), &[arguments.as_slice(), &["--stress", "1.2e9"]].concat());
     assert!(output.status.success(), "{output:?}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("largest stress: 1200 MPa"), "{output:?}");
     let out = directory.path().join("out/plan");
     let record: serde_json::Value = serde_json::from_slice(&fs::read(out.join("plan.json")).unwrap()).unwrap();
     let chosen = record["chosen"].as_array().unwrap();
     let gains: Vec<f64> = chosen.iter().map(|one| one["gain"].as_f64().unwrap()).collect();
     assert!(!gains.is_empty() && gains.windows(2).all(|pair| pair[1] <= pair[0] + 1e-12), "{gains:?}");
+    assert_eq!(record["stress_limit"], 1.2e9);
     let mut table = csv::Reader::from_path(out.join("candidates.csv")).unwrap();
-    assert_eq!((table.headers().unwrap().len(), table.records().count()), (18, 12));
+    let headers = table.headers().unwrap().clone();
+    assert_eq!(headers.len(), 18);
+    let rows: Vec<csv::StringRecord> = table.records().collect::<Result<_, _>>().unwrap();
+    let column = |name: &str| headers.iter().position(|one| one == name).unwrap();
+    assert_eq!(rows.len(), 14);
+    // the given ones come first: the scan, and the arc that a pivot gives
+    let row = |number: &str| rows.iter().find(|row| &row[0] == number).unwrap();
+    assert_eq!((&row("0")[column("distance")], &row("1")[column("distance")]), ("0.05", ""));
+    let end: [f64; 2] = ["x_to", "y_to"].map(|name| row("1")[column(name)].parse().unwrap());
+    assert!((end[0] - (0.05 + 0.1 * 30_f64.to_radians().cos())).abs() < 1e-12 && (end[1] + 0.08).abs() < 1e-12);
+    let stress = |row: &csv::StringRecord| row[column("largest_stress")].parse::<f64>().unwrap();
+    assert!(rows.iter().filter(|row| !row[1].is_empty()).all(|row| stress(row) <= 1.2e9));
     assert!(fs::read_to_string(out.join("plan.svg")).unwrap().contains("hypotheses"));
 }
 
@@ -111,7 +136,7 @@ fn a_result_that_cannot_be_planned_from_is_named() {
     let directory = tempfile::tempdir().unwrap();
     let file = scene("O1_q40.toml");
     let message = || {
-        let output = vibrissa(directory.path(), &["plan", "found", "--rod", file.to_str().unwrap()]);
+        let output = vibrissa(directory.path(), &["plan", "found", "--rod", file.to_str().unwrap(), "--stress", "1e9"]);
         assert!(!output.status.success());
         String::from_utf8_lossy(&output.stderr).into_owned()
     };
@@ -127,6 +152,41 @@ fn a_result_that_cannot_be_planned_from_is_named() {
     assert!(message().contains("line 2: sigma is -1, expected a number, 0 or larger, m"), "{}", message());
     table("1,0.0,0.0,unknown,,,false");
     assert!(message().contains("no point of the contour is touched or bounded"), "{}", message());
+}
+
+/// Scans from all sides, the clamp outside of the box and the tip in it, each from another side.
+#[test]
+fn an_object_in_a_box_is_approached() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = scene("O1_q40.toml");
+    let arguments = ["plan", "--box", "-0.02,0.0,0.02,0.04", "--rod", file.to_str().unwrap(), "--scans", "2"];
+    let output = vibrissa(directory.path(), &arguments);
+    assert!(!output.status.success());
+    let output = vibrissa(directory.path(), &[arguments.as_slice(), &["--stress", "1.5e9"]].concat());
+    assert!(output.status.success(), "{output:?}");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(text.contains("scan 2: ") && text.contains("those before it touched nothing"), "{text}");
+    let out = directory.path().join("out/plan");
+    let record: serde_json::Value = serde_json::from_slice(&fs::read(out.join("plan.json")).unwrap()).unwrap();
+    let chosen = record["chosen"].as_array().unwrap();
+    assert_eq!((chosen.len(), &record["box"]), (2, &serde_json::json!([[-0.02, 0.0], [0.02, 0.04]])));
+    for scan in chosen {
+        let number = |end: &str, k: usize| scan[end][k].as_f64().unwrap();
+        // from far beyond the box on one side to far beyond it on the other
+        let [dx, dy] = [0, 1].map(|k| number("to", k) - number("from", k));
+        let way = dx.hypot(dy);
+        assert!(way > 0.24, "{scan}");
+        // all corners on the side of the rod
+        let (sin, cos) = number("from", 2).sin_cos();
+        for corner in [[-0.02, 0.0], [0.02, 0.0], [0.02, 0.04], [-0.02, 0.04]] {
+            let ahead = (corner[0] - number("from", 0)) * cos + (corner[1] - number("from", 1)) * sin;
+            assert!(ahead > 0.0, "{scan}");
+        }
+        // 1.5 GPa at the surface of the wire of 0.5 mm
+        let moment = scan["stop_moment"].as_f64().unwrap();
+        assert!((moment / (1.5e9 * std::f64::consts::PI * 0.5e-3_f64.powi(3) / 32.0) - 1.0).abs() < 1e-9);
+    }
+    assert!(fs::read_to_string(out.join("plan.svg")).unwrap().contains("box"));
 }
 
 /// The precision that is predicted from one reconstruction, against those of other recordings of the same scan.

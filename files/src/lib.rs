@@ -47,7 +47,7 @@ pub use live::{
 };
 pub use noise_file::read_noise;
 pub use output::{OutputError, Staged};
-pub use planned::{PlanFileError, PlanRequest, Planned, PlannedScan, read_known_contours};
+pub use planned::{Approaches, LargestStress, PlanFileError, PlanRequest, Planned, PlannedScan, read_known_contours};
 pub use profile::{Profile, ProfileError, ProfilePoint, write_profile_table};
 pub use reached::{OutlinePart, Reached, Touch};
 pub use reconstructed::{
@@ -57,8 +57,8 @@ pub use reconstructed::{
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{
-    CalibratedRod, ElasticaScene, FilmedRod, Leg, LegPath, Scene, SceneFriction, read_calibrated_rod, read_filmed_rod,
-    read_uniform_rod, unit_of,
+    CalibratedRod, ElasticaScene, FilmedRod, Leg, LegPath, ScanList, Scene, SceneFriction, read_calibrated_rod,
+    read_filmed_rod, read_scans, read_uniform_rod, unit_of,
 };
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
 pub use simulation::{Simulated, Simulation, SimulationError, Speed, Tick, Ticks};

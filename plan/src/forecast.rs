@@ -6,10 +6,16 @@ use crate::precision::{Measurement, PlaceSigma, predicted};
 use crate::support::along;
 use crate::{IntervalSet, PlanError, ReachGrid, Scanned, StraightScan, scanned};
 use rayon::prelude::*;
-use rod_contact::{ClampPath, StopReason};
-use rod_core::PhysicalRod;
+use rod_contact::{Path, StopReason};
+use rod_core::{PhysicalRod, Pose};
 use rod_reconstruct::{FittedObject, Knowledge};
+use std::fmt;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Distance (rod lengths) of the states of a sweep past a drawn object. The ends of what is touched do not depend on it; between two states the stress may be somewhat
+/// larger than at both. Smaller: slower.
+const COARSE: f64 = 0.03;
 
 /// How candidates are judged.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,16 +38,29 @@ impl Default for PlanSettings {
 }
 
 /// A scan that may be made.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone)]
 pub struct Candidate {
     /// Where it stands in a grid; none where its path was given.
     pub scan: Option<StraightScan>,
-    /// The way of the clamp.
-    pub path: ClampPath,
+    /// The way of the clamp. Its parameter is the way in m, as of a [`ClampPath`](rod_contact::ClampPath) or a [`ClampArc`](rod_contact::ClampArc) on which the clamp moves.
+    pub path: Arc<dyn Path>,
+}
+
+impl Candidate {
+    /// First and last pose of the clamp.
+    pub fn ends(&self) -> [Pose; 2] {
+        [0.0, self.path.length()].map(|way| self.path.point(way).pose)
+    }
+}
+
+impl fmt::Debug for Candidate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Candidate").field("scan", &self.scan).field("ends", &self.ends()).finish_non_exhaustive()
+    }
 }
 
 /// What a candidate is expected to bring.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Forecast {
     /// The scan.
     pub candidate: Candidate,
@@ -159,9 +178,23 @@ pub fn straight_candidates<R: PhysicalRod>(
     settings: &PlanSettings,
 ) -> Result<Vec<Candidate>, PlanError> {
     grid.check(rod)?;
+    candidates(rod, known, grid.scans(), settings)
+}
+
+/// These scans, whose lines are so far from all hypotheses about the object: those of [`plan`] with the same settings.
+///
+/// # Errors
+/// [`PlanError`].
+pub fn candidates<R: PhysicalRod>(
+    rod: &R,
+    known: &[FittedObject],
+    scans: impl IntoIterator<Item = StraightScan>,
+    settings: &PlanSettings,
+) -> Result<Vec<Candidate>, PlanError> {
     let length = rod.units().length;
-    let hypotheses = hypotheses(known, length, settings, &|_| true)?;
-    candidates_of(&hypotheses, grid, length)
+    let scans: Vec<StraightScan> = scans.into_iter().collect();
+    scans.iter().try_for_each(|scan| scan.check(length))?;
+    candidates_of(&hypotheses(known, length, settings, &|_| true)?, scans, length)
 }
 
 /// Objects that agree with what is known, and whose contours beyond what is known stay where they `may_be`.
@@ -175,10 +208,10 @@ pub(crate) fn hypotheses(
     if all.is_empty() { Err(PlanError::NothingKnown) } else { Ok(all) }
 }
 
-/// The scans of a grid past these objects; `length` is that of the rod, m.
+/// Scans past these objects; `length` is that of the rod, m.
 pub(crate) fn candidates_of(
     hypotheses: &[Hypothesis],
-    grid: &ReachGrid,
+    scans: impl IntoIterator<Item = StraightScan>,
     length: f64,
 ) -> Result<Vec<Candidate>, PlanError> {
     let candidate = |scan: StraightScan| {
@@ -195,9 +228,9 @@ pub(crate) fn candidates_of(
             frames().filter(|(_, frame)| along(scan.angle, *frame) <= limit).map(|(_, frame)| along(left, frame));
         let across =
             within.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| (ends.0.min(place), ends.1.max(place)));
-        Ok(Candidate { scan: Some(scan), path: scan.path(nearest, across, length)? })
+        Ok(Candidate { scan: Some(scan), path: Arc::new(scan.path(nearest, across, length)?) })
     };
-    grid.scans().map(candidate).collect()
+    scans.into_iter().map(candidate).collect()
 }
 
 /// What each of some candidate scans is expected to add to what is `known` of an object, on all cores, without friction. `goes_on` hears how many
@@ -231,7 +264,7 @@ pub(crate) fn plan_of<R: PhysicalRod + Sync>(
     let places = hypotheses.first().map_or_else(Vec::new, |one| known_places(known, one));
     let done = AtomicUsize::new(0);
     let one = |candidate: &Candidate| {
-        let found = forecast(rod, &places, &hypotheses, *candidate, settings);
+        let found = forecast(rod, &places, &hypotheses, candidate.clone(), settings);
         (found, goes_on(done.fetch_add(1, Ordering::Relaxed) + 1))
     };
     let found = candidates.par_iter().map(one).take_any_while(|(_, goes_on)| *goes_on).map(|(found, _)| found);
@@ -246,7 +279,7 @@ fn forecast<R: PhysicalRod>(
     candidate: Candidate,
     settings: &PlanSettings,
 ) -> Result<(Forecast, Vec<Vec<IntervalSet>>), PlanError> {
-    let (path, step) = (candidate.path, scanned::STEP * rod.units().length);
+    let path = candidate.path.clone();
     let (mut new, mut gains, mut touched) = (Vec::new(), Vec::new(), 0.0);
     let mut forecast = Forecast {
         candidate,
@@ -264,7 +297,9 @@ fn forecast<R: PhysicalRod>(
     let count = hypotheses.len() as f64;
     for (number, hypothesis) in hypotheses.iter().enumerate() {
         let Hypothesis { objects, outlines, touched: before } = hypothesis;
-        let (found, states) = Scanned::of(rod, objects, outlines, path, step)?;
+        // only of the most plausible object are the states themselves of use
+        let step = if number == 0 { scanned::STEP } else { COARSE } * rod.units().length;
+        let (found, states) = Scanned::of(rod, objects, outlines, &path, step)?;
         let all: Vec<IntervalSet> = (0..objects.len()).map(|object| found.touched.all(object)).collect();
         let fresh: Vec<IntervalSet> = all.iter().zip(before).map(|(all, before)| all.without(before)).collect();
         gains.push(fresh.iter().map(IntervalSet::length).sum::<f64>());

@@ -5,9 +5,10 @@ use crate::scanned;
 use crate::support::{HalfPlane, along, nearest, outline};
 use crate::{Outline, PlanError, Scanned, Touched};
 use rayon::prelude::*;
-use rod_contact::ContactError;
+use rod_contact::{ContactError, Path};
 use rod_contours::Composite;
 use rod_core::PhysicalRod;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The scans that are tried: all distances at all angles, each with passes to both sides.
@@ -43,12 +44,7 @@ impl ReachGrid {
                 return Err(PlanError::Empty { what });
             }
         }
-        if let Some(&value) = self.distances.iter().find(|value| !(**value > 0.0 && **value < length)) {
-            return Err(PlanError::Distance { value, length });
-        }
-        if let Some(&value) = self.angles.iter().find(|value| !value.is_finite()) {
-            return Err(PlanError::Angle { value });
-        }
+        self.scans().try_for_each(|scan| scan.check(length))?;
         if !(self.step.is_finite() && self.step > 0.0) {
             return Err(ContactError::Step { value: self.step }.into());
         }
@@ -151,6 +147,6 @@ fn scan_reach<R: PhysicalRod>(
     let places = objects.iter().zip(outlines).flat_map(|(object, outline)| outline.points(object));
     let within = places.filter(|(_, frame)| along(scan.angle, *frame) <= limit).map(|(_, frame)| along(left, frame));
     let across = within.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| (ends.0.min(place), ends.1.max(place)));
-    let path = scan.path(near, across, rod.units().length)?;
-    Ok(ScanReach { scan, found: Scanned::of(rod, objects, outlines, path, step)?.0 })
+    let path: Arc<dyn Path> = Arc::new(scan.path(near, across, rod.units().length)?);
+    Ok(ScanReach { scan, found: Scanned::of(rod, objects, outlines, &path, step)?.0 })
 }

@@ -1,5 +1,6 @@
 //! Straight scans, by distance and angle.
 
+use crate::PlanError;
 use rod_contact::{ClampPath, ContactError};
 use rod_core::Pose;
 
@@ -42,6 +43,16 @@ pub struct StraightScan {
 }
 
 impl StraightScan {
+    /// Whether it can be, for a rod of this length (m).
+    pub(crate) fn check(self, length: f64) -> Result<(), PlanError> {
+        let Self { distance: value, angle, .. } = self;
+        match (value > 0.0 && value < length, angle.is_finite()) {
+            (false, _) => Err(PlanError::Distance { value, length }),
+            (_, false) => Err(PlanError::Angle { value: angle }),
+            _ => Ok(()),
+        }
+    }
+
     /// The path past an object whose nearest place along the rod's direction is `nearest` (m, from the origin), and which spans `across`
     /// (m, from the origin to the left of the rod), for a rod of this length (m).
     pub(crate) fn path(self, nearest: f64, across: (f64, f64), length: f64) -> Result<ClampPath, ContactError> {

@@ -2,9 +2,10 @@
 
 use crate::touched::{Touched, Trail};
 use crate::{Outline, PlanError};
-use rod_contact::{ClampPath, Event, EventKind, Item, State, Stop, Sweep};
+use rod_contact::{Chain, Event, EventKind, Item, Path, State, Stop, Sweep};
 use rod_contours::Composite;
 use rod_core::PhysicalRod;
+use std::sync::Arc;
 
 /// Distance of the states of a sweep, rod lengths. Smaller: slower; the ends of what is touched are exact all the same.
 pub(crate) const STEP: f64 = 0.01;
@@ -32,11 +33,11 @@ impl Scanned {
         rod: &R,
         objects: &[Composite],
         outlines: &[Outline],
-        path: ClampPath,
+        path: &Arc<dyn Path>,
         step: f64,
     ) -> Result<(Self, Vec<State>), PlanError> {
         let (mut found, mut trail, mut states) = (Self::default(), Trail::default(), Vec::new());
-        for item in Sweep::new(rod, objects, path, step)? {
+        for item in Sweep::new(rod, objects, Chain::new(vec![path.clone()])?, step)? {
             match item {
                 Ok(Item::State(state)) => {
                     found.load(&state);

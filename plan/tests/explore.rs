@@ -3,18 +3,27 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rod_contact::Sweep;
+use rod_contact::{ClampPath, Sweep};
 use rod_contours::{Composite, Spline, SplineEnd};
-use rod_core::{Reactions, Rod, Sample};
-use rod_plan::{
-    Explorer, ExplorerSettings, Finish, IntervalSet, Proposal, Purpose, Reach, ReachGrid, Rectangle, reach,
-};
-use rod_reconstruct::{Budget, NoiseModel, Settings};
+use rod_core::{Pose, Reactions, Rod, Sample};
+use rod_plan::{Abort, Explorer, ExplorerSettings, Finish, IntervalSet, Purpose, Reach, ReachGrid, Rectangle, reach};
+use rod_reconstruct::{Budget, FittedObject, NoiseModel, Settings};
+use std::collections::HashMap;
 use std::f64::consts::TAU;
+use std::time::{Duration, Instant};
 
 /// Length of the rod, m, and its yield stress, Pa.
 const LENGTH: f64 = 0.1;
 const YIELD: f64 = 1.5e9;
+
+/// Share of what scans can reach at which enough of it is known.
+const ENOUGH: f64 = 0.95;
+
+/// Distance of the clamp from the box in a raster, rod lengths: the tip passes the widest place of an object about 0.4 rod lengths wide, with little stress.
+const RASTER: f64 = 0.5;
+
+/// Angles of which the rasters take some: a multiple of the number of scans of each.
+const FULL: usize = 120;
 
 fn rod() -> Rod {
     Rod::from_diameter(LENGTH, 5e-4, 206e9).unwrap().with_yield_stress(YIELD).unwrap()
@@ -99,17 +108,17 @@ fn settings(object: &Composite, seed: u64) -> ExplorerSettings {
     ExplorerSettings { reconstruction, seed, most_scans, ..settings }
 }
 
-/// The samples of a proposed scan, as far as the rig may make it.
-fn measure(object: &Composite, proposal: &Proposal, spacing: f64, seed: u64) -> (Vec<Sample>, f64, bool) {
+/// The samples of a scan, as far as the rig may make it.
+fn measure(object: &Composite, path: ClampPath, abort: Abort, spacing: f64, seed: u64) -> (Vec<Sample>, f64, bool) {
     let mut sensor = noise().generator(seed).unwrap();
-    let outcome = Sweep::new(&rod(), std::slice::from_ref(object), proposal.path, spacing).unwrap().run();
+    let outcome = Sweep::new(&rod(), std::slice::from_ref(object), path, spacing).unwrap().run();
     assert!(outcome.stop.is_none(), "{:?}", outcome.stop);
     let (mut samples, mut stress, mut is_aborted) = (Vec::new(), 0.0_f64, false);
     for state in &outcome.states {
         stress = stress.max(state.max_stress.unwrap());
         let reactions = sensor.sample(state.reactions).unwrap();
         samples.push(Sample { t: None, pose: state.pose, reactions, sigma: None });
-        if proposal.abort.is_beyond(&reactions) {
+        if abort.is_beyond(&reactions) {
             is_aborted = true;
             break;
         }
@@ -125,22 +134,16 @@ struct Explored {
     approaches: usize,
     aborted: usize,
     largest_stress: f64,
-    /// Of what scans can reach: share that was touched, and share that was touched and has the standard deviation that was asked for.
-    reached: f64,
-    precise: f64,
+    share: Share,
+    /// Scans after which the precise share was 0.95.
+    enough: Option<usize>,
     /// Predicted over found standard deviation, of the scans along the contour.
     ratios: Vec<f64>,
-    /// Median and largest distance of touched points from the object, in rod lengths.
-    error: [f64; 2],
 }
 
-fn explore(
-    object: &Composite,
-    settings: ExplorerSettings,
-    seed: u64,
-    reachable: &IntervalSet,
-    truth: &Reach,
-) -> Explored {
+/// Explores until the exploration is finished, or the time is over.
+fn explore(object: &Composite, settings: ExplorerSettings, seed: u64, truth: &Truth, most: Duration) -> Explored {
+    let begin = Instant::now();
     let (spacing, sigma) = (settings.spacing, settings.sigma);
     let mut explorer = Explorer::new(rod(), settings).unwrap();
     let mut found = Explored {
@@ -149,15 +152,21 @@ fn explore(
         approaches: 0,
         aborted: 0,
         largest_stress: 0.0,
-        reached: 0.0,
-        precise: 0.0,
+        share: Share::default(),
+        enough: None,
         ratios: Vec::new(),
-        error: [0.0; 2],
     };
-    while let Some(proposal) = explorer.propose().unwrap() {
-        let (samples, stress, is_aborted) = measure(object, &proposal, spacing, 100 * seed + found.scans as u64);
+    while begin.elapsed() < most
+        && let Some(proposal) = explorer.propose().unwrap()
+    {
+        let (samples, stress, is_aborted) =
+            measure(object, proposal.path, proposal.abort, spacing, 100 * seed + found.scans as u64);
         explorer.update(&samples).unwrap();
         found.scans += 1;
+        found.share = Share::of(explorer.known(), sigma, object, truth);
+        if found.share.precise >= ENOUGH {
+            found.enough.get_or_insert(found.scans);
+        }
         found.largest_stress = found.largest_stress.max(stress);
         found.aborted += usize::from(is_aborted);
         match &proposal.purpose {
@@ -190,35 +199,50 @@ fn explore(
         }
     }
     found.finish = explorer.finished();
-    let outline = &truth.outlines[0];
-    let (mut touched, mut precise, mut errors) = (IntervalSet::default(), IntervalSet::default(), Vec::new());
-    for chain in explorer.known() {
-        let place = |k: usize| {
-            let own = chain.known[k].sigma()?;
-            let place = outline.nearest(object, chain.points[k][0], chain.points[k][1])?;
-            let frame = outline.frame(object, place);
-            Some((place, (frame.x - chain.points[k][0]).hypot(frame.y - chain.points[k][1]) / LENGTH, own))
-        };
-        errors.extend((0..chain.points.len()).filter_map(place).map(|place| place.1));
-        let count = chain.points.len();
-        for k in 1..=count {
-            // the last one closes the contour, if its ends are neighbours
-            let (Some(from), Some(to)) = (place(k - 1), place(k % count)) else { continue };
-            let way = (to.0 - from.0).rem_euclid(outline.length());
-            if way > 0.06 * LENGTH || from.1.max(to.1) > 0.02 {
-                continue;
-            }
-            for set in if from.2.max(to.2) <= sigma { vec![&mut touched, &mut precise] } else { vec![&mut touched] } {
-                set.insert(from.0, (from.0 + way).min(outline.length()));
-                set.insert(0.0, from.0 + way - outline.length());
+    found
+}
+
+/// How much of what scans can reach is known.
+#[derive(Debug, Default)]
+struct Share {
+    /// Share that was touched, and share that was touched and has the standard deviation that was asked for.
+    touched: f64,
+    precise: f64,
+    /// Median and largest distance of touched points from the object, in rod lengths.
+    error: [f64; 2],
+}
+
+impl Share {
+    fn of(known: &[FittedObject], sigma: f64, object: &Composite, truth: &Truth) -> Self {
+        let outline = &truth.reach.outlines[0];
+        let (mut touched, mut precise, mut errors) = (IntervalSet::default(), IntervalSet::default(), Vec::new());
+        for chain in known {
+            let place = |k: usize| {
+                let own = chain.known[k].sigma()?;
+                let place = outline.nearest(object, chain.points[k][0], chain.points[k][1])?;
+                let frame = outline.frame(object, place);
+                Some((place, (frame.x - chain.points[k][0]).hypot(frame.y - chain.points[k][1]) / LENGTH, own))
+            };
+            errors.extend((0..chain.points.len()).filter_map(place).map(|place| place.1));
+            let count = chain.points.len();
+            for k in 1..=count {
+                // the last one closes the contour, if its ends are neighbours
+                let (Some(from), Some(to)) = (place(k - 1), place(k % count)) else { continue };
+                let way = (to.0 - from.0).rem_euclid(outline.length());
+                if way > 0.06 * LENGTH || from.1.max(to.1) > 0.02 {
+                    continue;
+                }
+                for set in if from.2.max(to.2) <= sigma { vec![&mut touched, &mut precise] } else { vec![&mut touched] }
+                {
+                    set.insert(from.0, (from.0 + way).min(outline.length()));
+                    set.insert(0.0, from.0 + way - outline.length());
+                }
             }
         }
+        let share = |set: &IntervalSet| 1.0 - truth.reachable.without(set).length() / truth.reachable.length();
+        let error = [median(&mut errors).unwrap_or(f64::NAN), errors.last().copied().unwrap_or(f64::NAN)];
+        Self { touched: share(&touched), precise: share(&precise), error }
     }
-    let share = |set: &IntervalSet| 1.0 - reachable.without(set).length() / reachable.length();
-    found.reached = share(&touched);
-    found.precise = share(&precise);
-    found.error = [median(&mut errors).unwrap_or(f64::NAN), errors.last().copied().unwrap_or(f64::NAN)];
-    found
 }
 
 fn median(values: &mut [f64]) -> Option<f64> {
@@ -226,49 +250,102 @@ fn median(values: &mut [f64]) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// All scans of a grid, and what those touch that do not bend the rod too far.
-fn reachable(object: &Composite, angles: usize, distances: &[f64]) -> (Reach, IntervalSet) {
+/// What scans can reach of an object.
+struct Truth {
+    reach: Reach,
+    /// What those scans touch that do not bend the rod too far.
+    reachable: IntervalSet,
+}
+
+/// All scans of a grid.
+fn truth(object: &Composite, angles: usize, distances: &[f64]) -> Truth {
     let grid = ReachGrid {
         distances: distances.iter().map(|share| share * LENGTH).collect(),
         angles: (0..angles).map(|k| TAU * (0.25 + k as f64 / angles as f64)).collect(),
         ..ReachGrid::of(&rod())
     };
-    let truth = reach(&rod(), std::slice::from_ref(object), &grid, &|_| true).unwrap();
-    let mut all = IntervalSet::default();
-    let within = truth.scans.iter().filter(|scan| scan.found.largest_stress.unwrap() <= YIELD);
-    within.for_each(|scan| all.extend(&scan.found.touched.all(0)));
-    (truth, all)
+    let reach = reach(&rod(), std::slice::from_ref(object), &grid, &|_| true).unwrap();
+    let mut reachable = IntervalSet::default();
+    let within = reach.scans.iter().filter(|scan| scan.found.largest_stress.unwrap() <= YIELD);
+    within.for_each(|scan| reachable.extend(&scan.found.touched.all(0)));
+    Truth { reach, reachable }
 }
 
 /// A free-form object, of which only its box is known, is touched nearly all around.
 #[test]
 fn a_free_form_object_is_explored() {
     let object = object(Kind::FreeForm, 1);
-    let (truth, reachable) = reachable(&object, 12, &[0.3, 0.6]);
-    let found = explore(&object, settings(&object, 1), 1, &reachable, &truth);
-    assert!(found.precise > 0.95 && found.scans <= 6, "{found:?}");
+    let truth = truth(&object, 12, &[0.3, 0.6]);
+    let found = explore(&object, settings(&object, 1), 1, &truth, Duration::MAX);
+    assert!(found.share.precise > 0.95 && found.scans <= 6, "{found:?}");
     assert!(found.largest_stress <= YIELD && found.aborted == 0, "{found:?}");
     assert_eq!(found.finish, Some(Finish::Precise));
 }
 
-/// Objects by kind (`KIND`, 0 to 2) and seed (`FIRST`, `COUNT`), with at most `MOST` scans each.
+/// How many scans of an equally spaced raster make the precise share 0.95: passes to the left at equal angles all around, the clamp on lines at one distance from the
+/// box. Rasters of 3 to 12 scans are tried, the smallest first; none where 12 are too few, or the time is over.
+fn raster(object: &Composite, settings: &ExplorerSettings, seed: u64, truth: &Truth, most: Duration) -> Option<usize> {
+    let (begin, corners) = (Instant::now(), settings.object.corners());
+    let mut fits: HashMap<usize, Vec<FittedObject>> = HashMap::new();
+    for count in [3, 4, 5, 6, 8, 10, 12] {
+        let mut explorer = Explorer::new(rod(), settings.clone()).unwrap();
+        for k in 0..count {
+            // the same angle in several rasters is one scan
+            let place = (FULL / count) * k;
+            let fit = fits.entry(place).or_insert_with(|| {
+                let angle = TAU * (0.25 + place as f64 / FULL as f64);
+                let (sin, cos) = angle.sin_cos();
+                let extent = |x: f64, y: f64| {
+                    let along = corners.map(|corner| corner[0] * x + corner[1] * y);
+                    (
+                        along.into_iter().fold(f64::INFINITY, f64::min),
+                        along.into_iter().fold(f64::NEG_INFINITY, f64::max),
+                    )
+                };
+                let (near, (right, left)) = (extent(cos, sin).0 - RASTER * LENGTH, extent(-sin, cos));
+                let clamp = |left: f64| Pose { x: near * cos - left * sin, y: near * sin + left * cos, phi: angle };
+                let path = ClampPath::new(clamp(right - 1.05 * LENGTH), clamp(left + 1.05 * LENGTH)).unwrap();
+                let moment = rod().bending_stiffness() * YIELD / rod().bending_stress(1.0).unwrap();
+                let abort = Abort { moment, force: f64::INFINITY };
+                let (samples, ..) = measure(object, path, abort, settings.spacing, 100 * seed + 50 + place as u64);
+                let mut alone = Explorer::new(rod(), settings.clone()).unwrap();
+                alone.add(&samples).unwrap();
+                alone.known().to_vec()
+            });
+            explorer.add_known(&[], fit.clone());
+            if begin.elapsed() > most {
+                return None;
+            }
+        }
+        if Share::of(explorer.known(), settings.sigma, object, truth).precise >= ENOUGH {
+            return Some(count);
+        }
+    }
+    None
+}
+
+/// Objects by kind (`KIND`, 0 to 2) and seed (`FIRST`, `COUNT`), with at most `MOST` scans and `SECONDS` s each; with `RASTER`, a raster of each as well.
 #[test]
 #[ignore = "minutes; a measurement"]
 fn shares_of_objects() {
-    let first: u64 = std::env::var("FIRST").map_or(0, |first| first.parse().unwrap());
-    let count: u64 = std::env::var("COUNT").map_or(1, |count| count.parse().unwrap());
+    let number = |name: &str, otherwise: u64| std::env::var(name).map_or(otherwise, |value| value.parse().unwrap());
+    let (first, count, most) = (number("FIRST", 0), number("COUNT", 1), Duration::from_secs(number("SECONDS", 3600)));
     let kinds = [Kind::FreeForm, Kind::Polygon, Kind::Notch];
     let chosen = std::env::var("KIND").ok().map(|kind| kind.parse::<usize>().unwrap());
     for (_, kind) in kinds.into_iter().enumerate().filter(|(k, _)| chosen.is_none_or(|chosen| chosen == *k)) {
         for seed in first..first + count {
             let object = object(kind, seed);
-            let (truth, reachable) = reachable(&object, 24, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]);
-            let begin = std::time::Instant::now();
-            let found = explore(&object, settings(&object, seed), seed, &reachable, &truth);
+            let truth = truth(&object, 24, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]);
+            let (settings, begin) = (settings(&object, seed), Instant::now());
+            let found = explore(&object, settings.clone(), seed, &truth, most);
+            let seconds = begin.elapsed().as_secs_f64();
+            let raster = std::env::var("RASTER").is_ok().then(|| raster(&object, &settings, seed, &truth, most));
+            let reachable = truth.reachable.length() / truth.reach.length();
+            let Explored { finish, scans, share, enough, .. } = &found;
+            let Share { touched, precise, error } = share;
             eprintln!(
-                "{kind:?} {seed}: {found:.3?} of {:.3}, {:.1} s",
-                reachable.length() / truth.length(),
-                begin.elapsed().as_secs_f64()
+                "{kind:?} {seed}: {finish:?}, {scans} scans, touched {touched:.3}, precise {precise:.3} of {reachable:.3}, error {error:.5?} L, {seconds:.1} s, \
+                 enough {enough:?}, raster {raster:?}, {found:.3?}"
             );
         }
     }

@@ -14,6 +14,7 @@ mod elastica;
 mod equilibrium;
 mod errors;
 mod event;
+mod explore;
 mod follower;
 mod forces;
 mod friction;
@@ -76,6 +77,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<forces::PyForces>()?;
     module.add_function(wrap_pyfunction!(forces::_forces, module)?)?;
     module.add_class::<live::PyLive>()?;
+    module.add_class::<explore::PyExplorer>()?;
+    module.add_class::<explore::PyProposal>()?;
     module.add_function(wrap_pyfunction!(elastica::elastica, module)?)?;
     module.add_function(wrap_pyfunction!(equilibrium::equilibrium, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;

@@ -1,12 +1,15 @@
 //! Which scans to make next.
 
 use crate::array::{Column, Floats, Get, structured, whole};
+use crate::path::PyPath;
 use crate::reconstruct::PyReconstruction;
 use crate::simulate::model;
 use crate::{errors, running};
 use pyo3::prelude::*;
-use rod_files::{PlanRequest, Planned, PlannedScan};
+use rod_files::{LargestStress, PlanRequest, Planned, PlannedScan};
 use std::borrow::Cow;
+use vibrissa::Pose;
+use vibrissa::plan::Candidate;
 
 const CANDIDATES: &[Column<PlannedScan>] = &[
     Column { name: "candidate", get: Get::Int(|row| row.candidate as i64) },
@@ -35,6 +38,37 @@ const CANDIDATES: &[Column<PlannedScan>] = &[
 /// The points x, y (m) of an outline.
 type Points = Vec<[f64; 2]>;
 
+/// A number that must be positive.
+fn positive(what: &str, value: f64, unit: &str) -> PyResult<f64> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(value);
+    }
+    Err(errors::value(format!("{what} is {value} {unit}, expected a positive, finite number")))
+}
+
+/// A stress in Pa, or "any".
+fn limit(stress: &Bound<'_, PyAny>) -> PyResult<LargestStress> {
+    match stress.extract::<f64>() {
+        Ok(value) => positive("stress", value, "Pa").map(LargestStress::Given),
+        Err(_) if stress.extract::<String>().is_ok_and(|text| text == "any") => Ok(LargestStress::Any),
+        Err(_) => Err(errors::value(format!("stress is {stress}, expected a number, Pa, or \"any\""))),
+    }
+}
+
+/// A scan along a path whose parameter is the way in m.
+fn candidate(path: &PyPath) -> PyResult<Candidate> {
+    let path = path.path.clone();
+    let is_way = |part: f64| {
+        let Pose { x, y, .. } = path.point(part * path.length()).rate;
+        (x.hypot(y) - 1.0).abs() < 1e-9
+    };
+    if !(path.legs().is_empty() && [0.0, 0.5, 1.0].into_iter().all(is_way)) {
+        let message = "paths has one of which the parameter is not the way of the clamp, expected ClampPath or ClampArc on which it moves";
+        return Err(errors::value(message));
+    }
+    Ok(Candidate { scan: None, path })
+}
+
 /// The table of :func:`vibrissa.plan`, and the outlines of the hypotheses.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
@@ -43,21 +77,20 @@ pub fn _plan<'py>(
     found: &PyReconstruction,
     distances: Option<Floats<'py>>,
     angles: Option<Floats<'py>>,
+    paths: Vec<Bound<'py, PyPath>>,
     #[pyo3(from_py_with = whole)] scans: usize,
-    stress: Option<f64>,
+    stress: Option<&Bound<'py, PyAny>>,
     noise: Option<&Bound<'py, PyAny>>,
     rate: f64,
     speed: f64,
     #[pyo3(from_py_with = whole)] hypotheses: usize,
     #[pyo3(from_py_with = whole)] seed: u64,
 ) -> PyResult<(Bound<'py, PyAny>, Vec<Points>)> {
-    let positive = [("stress", stress, "Pa"), ("rate", Some(rate), "Hz"), ("speed", Some(speed), "m/s")];
-    for (what, value, unit) in positive {
-        if value.is_some_and(|value| !(value.is_finite() && value > 0.0)) {
-            let value = value.unwrap_or(f64::NAN);
-            return Err(errors::value(format!("{what} is {value} {unit}, expected a positive, finite number")));
-        }
+    let largest_stress = stress.map_or(Ok(LargestStress::Yield), limit)?;
+    for (what, value, unit) in [("rate", rate, "Hz"), ("speed", speed, "m/s")] {
+        positive(what, value, unit)?;
     }
+    let paths = paths.iter().map(|path| candidate(path.get())).collect::<PyResult<Vec<_>>>()?;
     let found = found.found();
     let fit = found.fitted().ok_or_else(|| {
         errors::value("the reconstruction has no fitted contour, expected one of a recording with noise, without friction, and with fit=True")
@@ -65,8 +98,9 @@ pub fn _plan<'py>(
     let [distances, angles] =
         [distances, angles].map(|values| values.map(|values| values.view().iter().copied().collect::<Vec<f64>>()));
     let noise = noise.map(model).transpose()?;
+    let (scans, count) = (Vec::new(), scans);
     let request =
-        PlanRequest { distances, angles, noise, rate, speed, count: scans, most_stress: stress, hypotheses, seed };
+        PlanRequest { distances, angles, scans, paths, noise, rate, speed, count, largest_stress, hypotheses, seed };
     let (rod, known) = (&found.rod, fit.objects.clone());
     let planned = running::interruptible(py, |interrupt| Planned::new("", rod, known, &request, interrupt))?
         .map_err(errors::value)?;

@@ -38,7 +38,7 @@ const KINK: &[Column<Kink>] = &[
     Column { name: "score", get: Get::Float(|kink| kink.score) },
 ];
 
-const FITTED: &[Column<FittedPoint>] = &[
+pub const FITTED: &[Column<FittedPoint>] = &[
     Column { name: "object", get: Get::Int(|row| row.object as i64 - 1) },
     Column { name: "x", get: Get::Float(|row| row.x) },
     Column { name: "y", get: Get::Float(|row| row.y) },

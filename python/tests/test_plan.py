@@ -27,7 +27,7 @@ def found() -> vibrissa.Reconstruction:
 
 
 def plan(found: vibrissa.Reconstruction) -> vibrissa.Plan:
-    return vibrissa.plan(found, distances=[0.05, 0.07], angles=[math.radians(angle) for angle in ANGLES], hypotheses=2, noise=NOISE)
+    return vibrissa.plan(found, distances=[0.05, 0.07], angles=[math.radians(angle) for angle in ANGLES], stress="any", hypotheses=2, noise=NOISE)
 
 
 def test_tables_and_figure(found: vibrissa.Reconstruction) -> None:
@@ -52,7 +52,7 @@ def test_numbers_are_those_of_the_command(found: vibrissa.Reconstruction, comman
     rod = ["--rod", "O1_q40.toml", "--noise", "noise.toml"]
     for arguments in (
         ["reconstruct", "recording.csv", *rod, "--as-is", "--out", "result"],
-        ["plan", "result", *rod, "--distances", "0.05,0.07", "--angles", "60,90,120", "--hypotheses", "2", "--out", "next"],
+        ["plan", "result", *rod, "--distances", "0.05,0.07", "--angles", "60,90,120", "--stress", "any", "--hypotheses", "2", "--out", "next"],
     ):
         subprocess.run([*command, *arguments], cwd=tmp_path, check=True, capture_output=True)
     ours = plan(found).candidates
@@ -70,4 +70,23 @@ def test_wrong_arguments_are_named(found: vibrissa.Reconstruction) -> None:
     with pytest.raises(ValueError, match="stress is -1 Pa, expected a positive, finite number"):
         vibrissa.plan(found, stress=-1.0)
     with pytest.raises(ValueError, match="distances has 0.2 m, expected more than 0"):
-        vibrissa.plan(found, distances=0.2)
+        vibrissa.plan(found, distances=0.2, stress=1e9)
+    with pytest.raises(ValueError, match="the largest stress that the rod bears is not known"):
+        vibrissa.plan(found)
+    spline = vibrissa.ClampSpline([(0.08, -0.04, 1.5), (0.0, -0.05, 1.5), (-0.08, -0.04, 1.5)])
+    with pytest.raises(ValueError, match="paths has one of which the parameter is not the way"):
+        vibrissa.plan(found, paths=[spline], stress=1e9)
+
+
+def test_given_paths_come_first_and_the_stress_is_kept(found: vibrissa.Reconstruction) -> None:
+    up = math.pi / 2
+    paths = [vibrissa.ClampPath((0.08, -0.04, up), (-0.09, -0.04, up)), vibrissa.ClampArc((0.11, -0.06, up), (0.01, -0.06), 0.8, up)]
+    planned = vibrissa.plan(found, distances=0.05, angles=up, paths=paths, stress=1e9, hypotheses=2)
+    by_number = np.sort(planned.candidates, order="candidate")
+    assert len(by_number) == 4 and list(by_number["pass"]) == ["", "", "left", "right"]
+    for row, path in zip(by_number, paths, strict=False):
+        np.testing.assert_allclose([row["x_from"], row["y_from"], row["x_to"], row["y_to"]], [*path.start[:2], *path.end[:2]])
+        assert row["time"] == pytest.approx(path.length / 1e-3)
+    # the scan that is known adds nothing, within the resolution of the contour
+    assert by_number["gain"][0] < 2e-3
+    assert (planned.chosen["largest_stress"] <= 1e9).all()

@@ -19,7 +19,7 @@ Studies
     :class:`Study` is a file of them, :func:`read_study` reads the rows.
 Scans to make
     :func:`reach` gives the parts of objects that straight scans can touch, as :class:`Reach`; :func:`plan` chooses the next scans from a
-    reconstruction, as :class:`Plan`.
+    reconstruction, as :class:`Plan`. :class:`Explorer` gives one :class:`Proposal` after another, from the samples of all scans so far.
 From reactions to the object
     :func:`reconstruct` gives a :class:`Reconstruction`, :func:`reconstruct_together` one for each of several recordings of one object, :func:`single` the point of each sample on its own; :class:`Recording` reads files, :func:`simulate` makes recordings with
     noise, :class:`Live` answers while samples come.
@@ -48,6 +48,7 @@ from ._core import (
     EllipticArc,
     Equilibrium,
     Event,
+    Explorer,
     Follower,
     Forces,
     Graph,
@@ -56,6 +57,7 @@ from ._core import (
     Parabola,
     Path,
     Polygon,
+    Proposal,
     Reconstruction,
     Recording,
     Rod,
@@ -104,6 +106,7 @@ __all__ = [
     "EllipticArc",
     "Equilibrium",
     "Event",
+    "Explorer",
     "Follower",
     "Forces",
     "Graph",
@@ -113,6 +116,7 @@ __all__ = [
     "Path",
     "Plan",
     "Polygon",
+    "Proposal",
     "Ragged",
     "Reach",
     "Reconstruction",

@@ -520,6 +520,50 @@ class Forces:
     def __len__(self) -> int: ...
 
 @final
+class Proposal:
+    @property
+    def path(self) -> ClampPath: ...
+    @property
+    def purpose(self) -> str: ...
+    @property
+    def value(self) -> float: ...
+    @property
+    def largest_stress(self) -> float: ...
+    @property
+    def stop_force(self) -> float: ...
+    @property
+    def stop_moment(self) -> float: ...
+
+@final
+class Explorer:
+    def __new__(
+        cls,
+        rod: Rod,
+        box: Sequence[float],
+        *,
+        noise: _Noise,
+        stress: float | None = None,
+        stage: Sequence[float] | None = None,
+        angles: _Floats | None = None,
+        distances: _Floats | None = None,
+        rate: float = 500.0,
+        speed: float = 1e-3,
+        sigma: float | None = None,
+        least_gain: float | None = None,
+        most_scans: int = 40,
+        hypotheses: int = 4,
+        seed: int = 0,
+        as_is: bool = False,
+    ) -> Explorer: ...
+    @property
+    def finished(self) -> str | None: ...
+    @property
+    def known(self) -> _Rows: ...
+    def propose(self) -> Proposal | None: ...
+    def update(self, samples: _Samples) -> None: ...
+    def add(self, found: Reconstruction) -> None: ...
+
+@final
 class Live:
     def __new__(cls, rod: Rod, free: _Samples, *, half_window: float | None = None, as_is: bool = False) -> Live: ...
     @property
@@ -587,8 +631,9 @@ def _plan(
     found: Reconstruction,
     distances: npt.ArrayLike | None,
     angles: npt.ArrayLike | None,
+    paths: Sequence[Path],
     scans: int,
-    stress: float | None,
+    stress: float | str | None,
     noise: Mapping[str, Any] | str | PathLike[str] | None,
     rate: float,
     speed: float,

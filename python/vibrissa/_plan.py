@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from ._core import Reconstruction, _plan
+from ._core import Path, Reconstruction, _plan
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -77,8 +77,9 @@ def plan(
     *,
     distances: npt.ArrayLike | None = None,
     angles: npt.ArrayLike | None = None,
+    paths: Sequence[Path] = (),
     scans: int = 3,
-    stress: float | None = None,
+    stress: float | Literal["any"] | None = None,
     noise: Mapping[str, Any] | str | PathLike[str] | None = None,
     rate: float = 500.0,
     speed: float = 1e-3,
@@ -95,10 +96,12 @@ def plan(
         Distances of the clamp's path from the object, m; by default 0.2, 0.35, 0.5, 0.65 and 0.8 lengths of the rod.
     angles : float or array_like, optional
         Directions of the rod at its clamp, rad; by default 24 all around.
+    paths : sequence of Path, optional
+        Further scans to judge: each a :class:`ClampPath` or :class:`ClampArc` on which the clamp moves. They have the first numbers, in their order.
     scans : int, optional
         Most scans to choose.
-    stress : float, optional
-        Largest bending stress that the rod bears, Pa; by default any.
+    stress : float or "any", optional
+        Largest bending stress that the rod bears, Pa; by default its yield stress.
     noise : mapping, str or os.PathLike, optional
         The noise of the sensor as for :func:`simulate`: predicts standard deviations.
     rate : float, optional
@@ -117,8 +120,8 @@ def plan(
     Raises
     ------
     ValueError
-        The reconstruction has no fitted contour, or an argument is not possible.
+        The reconstruction has no fitted contour, an argument is not possible, or neither ``stress`` nor the yield stress of the rod is given.
     """
     distances, angles = (None if values is None else np.atleast_1d(np.asarray(values)) for values in (distances, angles))
-    candidates, drawn = _plan(found, distances, angles, scans, stress, noise, rate, speed, hypotheses, seed)
+    candidates, drawn = _plan(found, distances, angles, paths, scans, stress, noise, rate, speed, hypotheses, seed)
     return Plan(candidates, [np.asarray(points) for points in drawn], found)

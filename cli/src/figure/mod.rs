@@ -40,7 +40,7 @@ pub use canvas::FigureError;
 pub(crate) use equilibria::equilibria;
 pub(crate) use film::{frames, over_frames};
 pub(crate) use merged::merged;
-pub(crate) use plan::plan;
+pub(crate) use plan::{approaches, plan};
 pub(crate) use profile::profile;
 pub(crate) use reach::reach;
 pub(crate) use reactions::reactions;

@@ -2,7 +2,8 @@
 
 use crate::figure::{self, FigureError};
 use rod_files::{
-    ElasticaRun, FilmForces, OutputError, Planned, Profile, Reached, Reconstructed, Scan, Staged, write_profile_table,
+    Approaches, ElasticaRun, FilmForces, OutputError, Planned, Profile, Reached, Reconstructed, Scan, Staged,
+    write_profile_table,
 };
 use std::path::{Path, PathBuf};
 
@@ -104,6 +105,17 @@ pub fn write_reach(found: &Reached, staged: &Staged) -> Result<(), WriteError> {
     let figure = figure::reach(found)?;
     found.write(staged)?;
     staged.write(Path::new("reach.svg"), |file| file.write_all(figure.as_bytes()))?;
+    Ok(())
+}
+
+/// Writes plan.json and plan.svg into the staged directory.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn write_approaches(found: &Approaches, staged: &Staged) -> Result<(), WriteError> {
+    let figure = figure::approaches(found)?;
+    found.write(staged)?;
+    staged.write(Path::new("plan.svg"), |file| file.write_all(figure.as_bytes()))?;
     Ok(())
 }
 

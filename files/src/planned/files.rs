@@ -93,6 +93,8 @@ struct PlanRecord {
     bound: f64,
     /// Median standard deviation of the points touched before, m.
     known_sigma: Option<f64>,
+    /// Largest bending stress of the chosen scans, Pa; none for any.
+    stress_limit: Option<f64>,
     chosen: Vec<ChosenRecord>,
 }
 
@@ -104,11 +106,13 @@ struct ChosenRecord {
     /// Expected length of the contour that it adds to those before it, and of all so far, m.
     gain: f64,
     value: f64,
+    /// Pa
+    largest_stress: Option<f64>,
 }
 
-type Pose3 = [f64; 3];
+pub(super) type Pose3 = [f64; 3];
 
-fn pose(Pose { x, y, phi }: Pose) -> Pose3 {
+pub(super) fn pose(Pose { x, y, phi }: Pose) -> Pose3 {
     [x, y, phi]
 }
 
@@ -130,13 +134,13 @@ impl Planned {
     }
 
     fn row(&self, candidate: usize, forecast: &Forecast) -> PlannedScan {
-        let path = forecast.candidate.path;
+        let [from, to] = forecast.candidate.ends();
         PlannedScan {
             candidate,
             chosen: self.choices.iter().position(|choice| choice.candidate == candidate).map(|place| place + 1),
             scan: forecast.candidate.scan,
-            from: path.at(0.0),
-            to: path.at(path.length()),
+            from,
+            to,
             gain: forecast.gain,
             gain_sigma: forecast.gain_sigma,
             touched: forecast.touched,
@@ -151,14 +155,10 @@ impl Planned {
 
     fn record(&self) -> PlanRecord {
         let chosen = self.choices.iter().map(|choice| {
-            let path = self.plan.forecasts[choice.candidate].candidate.path;
-            ChosenRecord {
-                candidate: choice.candidate,
-                from: pose(path.at(0.0)),
-                to: pose(path.at(path.length())),
-                gain: choice.gain,
-                value: choice.value,
-            }
+            let forecast = &self.plan.forecasts[choice.candidate];
+            let [from, to] = forecast.candidate.ends().map(pose);
+            let (candidate, largest_stress) = (choice.candidate, forecast.largest_stress);
+            ChosenRecord { candidate, from, to, gain: choice.gain, value: choice.value, largest_stress }
         });
         let count = self.choices.len().max(1) as f64;
         PlanRecord {
@@ -167,6 +167,7 @@ impl Planned {
             candidates: self.candidates,
             bound: 1.0 - (1.0 - 1.0 / count).powf(count),
             known_sigma: self.plan.forecasts.iter().find_map(Forecast::known_sigma).map(|sigma| sigma[0]),
+            stress_limit: self.most_stress,
             chosen: chosen.collect(),
         }
     }

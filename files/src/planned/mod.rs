@@ -1,17 +1,22 @@
 //! Which scans to make next: what `vibrissa plan` writes.
 
+mod approaches;
 mod files;
 mod known;
 mod report;
+mod stress;
 
+pub use approaches::Approaches;
 pub use files::PlannedScan;
 pub use known::read_known_contours;
+pub use stress::LargestStress;
 
 use crate::Interrupt;
 use std::io;
 use std::path::PathBuf;
 use vibrissa::plan::{
-    Choice, Forecast, Measurement, Plan, PlanError, PlanSettings, ReachGrid, plan, straight_candidates,
+    Candidate, Choice, ExploreError, Forecast, Measurement, Plan, PlanError, PlanSettings, ReachGrid, StraightScan,
+    candidates, plan, straight_candidates,
 };
 use vibrissa::reconstruct::{FittedObject, NoiseModel};
 use vibrissa::rod::AnyRod;
@@ -42,9 +47,25 @@ pub enum PlanFileError {
         /// Why, with line, field, value and expectation.
         reason: String,
     },
+    /// How far the rod may bend is not known.
+    #[error(
+        "the largest stress that the rod bears is not known, expected the yield_stress of its material with the rod, or stress (Pa), which may be any"
+    )]
+    NoStress,
+    /// How far the rod bends is not known.
+    #[error("stress is given for a rod without a diameter, expected one with a diameter, or no stress")]
+    NoDiameter,
+    /// A rod with which an object cannot be approached.
+    #[error(
+        "a box is given for a rod that is not uniform, is bent at rest or has no rigid clamp, expected a uniform, straight, rigidly clamped rod"
+    )]
+    NotUniform,
     /// The scans.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// The scans of an object of which only a box is known.
+    #[error(transparent)]
+    Explore(#[from] ExploreError),
 }
 
 /// What is asked of a plan.
@@ -54,6 +75,10 @@ pub struct PlanRequest {
     pub distances: Option<Vec<f64>>,
     /// Directions of the rod at its clamp, rad; none for all around.
     pub angles: Option<Vec<f64>>,
+    /// Further straight scans.
+    pub scans: Vec<StraightScan>,
+    /// Scans along further paths.
+    pub paths: Vec<Candidate>,
     /// Noise of the sensor; none where no standard deviations are to be predicted.
     pub noise: Option<NoiseModel>,
     /// Samples in a second, Hz.
@@ -62,8 +87,8 @@ pub struct PlanRequest {
     pub speed: f64,
     /// Most scans to take.
     pub count: usize,
-    /// Largest bending stress that the rod bears, Pa.
-    pub most_stress: Option<f64>,
+    /// Largest bending stress that the rod bears.
+    pub largest_stress: LargestStress,
     /// Objects that are drawn.
     pub hypotheses: usize,
     /// Seed of the draws.
@@ -77,8 +102,10 @@ pub struct Planned {
     pub name: String,
     /// What is known.
     pub known: Vec<FittedObject>,
-    /// How many candidates there are.
+    /// How many candidates there are: those of the request first, its scans before its paths.
     pub candidates: usize,
+    /// Largest bending stress of the scans that are taken, Pa; none for any.
+    pub most_stress: Option<f64>,
     /// All candidates.
     pub plan: Plan,
     /// Those that are taken, in order.
@@ -86,17 +113,18 @@ pub struct Planned {
 }
 
 impl Planned {
-    /// Judges straight scans by what a reconstruction knows. Interrupted, fewer are judged.
+    /// Judges straight scans, and those of the request, by what a reconstruction knows. Interrupted, fewer are judged.
     ///
     /// # Errors
-    /// [`PlanError`].
+    /// [`PlanFileError`].
     pub fn new(
         name: &str,
         rod: &AnyRod,
         known: Vec<FittedObject>,
         request: &PlanRequest,
         interrupt: &Interrupt,
-    ) -> Result<Self, PlanError> {
+    ) -> Result<Self, PlanFileError> {
+        let most_stress = request.largest_stress.limit(rod)?;
         let length = rod.units().length;
         let angle = |k: usize| std::f64::consts::TAU * k as f64 / ANGLES as f64;
         let grid = ReachGrid {
@@ -113,13 +141,15 @@ impl Planned {
                 .as_ref()
                 .map(|noise| Measurement::of(&noise.channels(), request.speed / request.rate, &known, length)),
         };
-        let candidates = straight_candidates(rod, &known, &grid, &settings)?;
+        let mut candidates = candidates(rod, &known, request.scans.iter().copied(), &settings)?;
+        candidates.extend(request.paths.iter().cloned());
+        candidates.extend(straight_candidates(rod, &known, &grid, &settings)?);
         let plan = plan(rod, &known, &candidates, &settings, &|done| {
             interrupt.pass(done as f64 / candidates.len() as f64);
             !interrupt.is_raised()
         })?;
-        let choices = plan.greedy(request.count, request.most_stress);
-        Ok(Self { name: name.to_owned(), known, candidates: candidates.len(), plan, choices })
+        let choices = plan.greedy(request.count, most_stress);
+        Ok(Self { name: name.to_owned(), known, candidates: candidates.len(), most_stress, plan, choices })
     }
 
     /// Whether all candidates were judged.

@@ -16,10 +16,14 @@ impl Planned {
     fn write_report(&self, text: &mut String) -> std::fmt::Result {
         let (name, hypotheses) = (&self.name, self.plan.hypotheses.len());
         writeln!(text, "{name}: {} candidate scans, {hypotheses} hypotheses about the object", self.candidates)?;
+        match (self.most_stress, self.plan.forecasts.iter().any(|forecast| forecast.largest_stress.is_some())) {
+            (Some(limit), _) => writeln!(text, "largest stress: {:.0} MPa", 1e-6 * limit)?,
+            (None, true) => writeln!(text, "warning: no largest stress: whether the rod yields is not checked")?,
+            (None, false) => writeln!(text, "the rod has no diameter: whether it yields is not known")?,
+        }
         for (place, choice) in self.choices.iter().enumerate() {
             let forecast = &self.plan.forecasts[choice.candidate];
-            let path = forecast.candidate.path;
-            let [from, to] = [path.at(0.0), path.at(path.length())];
+            let [from, to] = forecast.candidate.ends();
             write!(
                 text,
                 "scan {}: clamp from ({:.2}, {:.2}) to ({:.2}, {:.2}) mm, angle {:.2} deg: {:.2} mm of new contour, {:.0} s",

@@ -5,7 +5,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::ops::Range;
 use vibrissa::Label;
-use vibrissa::reconstruct::{ContourFit, Finding, Goodness, Knowledge, ShapeKind, SimpleShape, Source};
+use vibrissa::reconstruct::{ContourFit, Finding, FittedObject, Goodness, Knowledge, ShapeKind, SimpleShape, Source};
 
 /// Share of the samples in contact from which on such places are told: fewer are next to a transition.
 const DOUBTED: f64 = 0.01;
@@ -100,23 +100,7 @@ impl Reconstructed {
 
     /// The points of the contour of the fit, as in fitted.csv; none where there is no fit.
     pub fn fitted_contour(&self) -> Option<impl Iterator<Item = FittedPoint>> {
-        let fit = self.fitted()?;
-        Some(fit.objects.iter().enumerate().flat_map(|(object, fitted)| {
-            let point = move |k: usize| FittedPoint {
-                object: object + 1,
-                x: fitted.points[k][0],
-                y: fitted.points[k][1],
-                known: match fitted.known[k] {
-                    Knowledge::Touched { .. } => "touched",
-                    Knowledge::Bounded { .. } => "bounded",
-                    Knowledge::Unknown => "unknown",
-                },
-                sigma: fitted.known[k].sigma(),
-                room: fitted.known[k].room(),
-                vertex: fitted.vertices.contains(&k),
-            };
-            (0..fitted.points.len()).map(point)
-        }))
+        Some(FittedPoint::all(&self.fitted()?.objects))
     }
 
     /// First and last row of some samples.
@@ -190,6 +174,28 @@ pub struct FittedPoint {
     pub room: Option<f64>,
     /// Whether smooth pieces meet at an angle there.
     pub vertex: bool,
+}
+
+impl FittedPoint {
+    /// The points of some contours.
+    pub fn all(objects: &[FittedObject]) -> impl Iterator<Item = Self> {
+        objects.iter().enumerate().flat_map(|(object, fitted)| {
+            let point = move |k: usize| Self {
+                object: object + 1,
+                x: fitted.points[k][0],
+                y: fitted.points[k][1],
+                known: match fitted.known[k] {
+                    Knowledge::Touched { .. } => "touched",
+                    Knowledge::Bounded { .. } => "bounded",
+                    Knowledge::Unknown => "unknown",
+                },
+                sigma: fitted.known[k].sigma(),
+                room: fitted.known[k].room(),
+                vertex: fitted.vertices.contains(&k),
+            };
+            (0..fitted.points.len()).map(point)
+        })
+    }
 }
 
 /// The fit of one contour to the whole recording.

@@ -64,7 +64,7 @@ impl LegPath {
 }
 
 /// Distance (lengths of the rod, radians) that counts as none: the end of a leg about a pivot has rounding errors.
-const SAME: f64 = 1e-12;
+pub(super) const SAME: f64 = 1e-12;
 
 /// The legs of a path whose first leg ends at `end`; `length` is that of the rod, m.
 pub(super) fn all(sweep: &SweepTable, end: Pose, length: f64) -> Result<Vec<Leg>, Fault> {
@@ -77,7 +77,8 @@ pub(super) fn all(sweep: &SweepTable, end: Pose, length: f64) -> Result<Vec<Leg>
     sweep.leg.iter().map(leg).collect()
 }
 
-fn path(table: &Spanned<LegTable>, from: Pose, same: f64) -> Result<LegPath, Fault> {
+/// The path of a leg from a pose; `same` (m) is a distance that counts as none.
+pub(super) fn path(table: &Spanned<LegTable>, from: Pose, same: f64) -> Result<LegPath, Fault> {
     let LegTable { to, angle_to, pivot, turn, .. } = table.get_ref();
     let wrong = |message: &str| Err(Fault::new(table.span(), message.to_owned()));
     // a clamp that comes back to where it was is there

@@ -14,6 +14,7 @@ mod numbers;
 mod object;
 mod rod;
 mod rod_table;
+mod scans;
 mod schema;
 mod shape;
 
@@ -23,6 +24,7 @@ pub use known_rod::{CalibratedRod, read_calibrated_rod, read_uniform_rod, unit_o
 pub use leg::{Leg, LegPath};
 pub(crate) use numbers::MOST_STATES;
 pub use rod::{FilmedRod, read_filmed_rod};
+pub use scans::{ScanList, read_scans};
 
 use crate::SceneError;
 use crate::toml_file::{self, SourceText};

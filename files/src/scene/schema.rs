@@ -123,6 +123,19 @@ const LEG: &[FieldRule] = &[
 /// A field that is missing unless one of several others is there: what is said of it.
 type MissingUnless = (&'static [&'static str], &'static str);
 
+/// `[[scan]]` and `[[path]]` of a list of scans.
+const SCAN: &[FieldRule] =
+    &[required("distance", Number(Length)), required("angle", Number(Angle)), optional("pass", Any)];
+
+const SCAN_PATH: &[FieldRule] = &[
+    required("from", Point(Length)),
+    required("angle", Number(Angle)),
+    optional("to", Point(Length)),
+    optional("angle_to", Number(Angle)),
+    optional("pivot", Point(Length)),
+    optional("turn", Number(Angle)),
+];
+
 const STIFFNESS: &[MissingUnless] = &[
     (
         &["bending_stiffness", "diameter", "youngs_modulus", "section"],
@@ -217,6 +230,19 @@ pub(super) fn elastica(table: &Spanned<DeTable<'_>>) -> Result<Quantities, Fault
     Ok(quantities)
 }
 
+/// The quantities of a list of scans.
+///
+/// # Errors
+/// As [`scene`].
+pub(super) fn scans(table: &Spanned<DeTable<'_>>) -> Result<Quantities, Fault> {
+    let mut quantities = Quantities::default();
+    for (name, rules) in [("scan", SCAN), ("path", SCAN_PATH)] {
+        check_list(table.get_ref(), name)?;
+        tables_of(table.get_ref(), name).into_iter().try_for_each(|one| check(one, rules, &[], &mut quantities))?;
+    }
+    Ok(quantities)
+}
+
 /// Refuses a single table where a list of them belongs.
 fn check_list(table: &DeTable<'_>, name: &str) -> Result<(), Fault> {
     match table.get(name) {
@@ -258,7 +284,7 @@ fn of_rod_alone(table: &Spanned<DeTable<'_>>, unless: &[MissingUnless]) -> Resul
 }
 
 /// Tables of which there may be several.
-const LISTS: [&str; 5] = ["object", "piece", "section", "leg", "load"];
+const LISTS: [&str; 7] = ["object", "piece", "section", "leg", "load", "scan", "path"];
 
 /// The table, or the tables of a list, of that name, if it is what it should be.
 fn tables_of<'a, 'b>(table: &'a DeTable<'b>, name: &str) -> Vec<&'a Spanned<DeValue<'b>>> {

@@ -15,12 +15,16 @@ pub struct Abort {
     pub force: f64,
 }
 
+/// The moment of a bending stress (Pa), N m; none where the diameter is not known.
+pub(super) fn largest_moment(rod: &Rod, stress: f64) -> Option<f64> {
+    // E d kappa / 2 at the surface
+    Some(rod.bending_stiffness() * stress / rod.bending_stress(1.0)?)
+}
+
 impl Abort {
     /// For a largest stress (Pa) and the largest force that is expected (N).
     pub(super) fn of(rod: &Rod, stress: f64, expected_force: f64) -> Option<Self> {
-        // E d kappa / 2 at the surface
-        let per_curvature = rod.bending_stress(1.0)?;
-        Some(Self { moment: rod.bending_stiffness() * stress / per_curvature, force: 1.5 * expected_force })
+        Some(Self { moment: largest_moment(rod, stress)?, force: 1.5 * expected_force })
     }
 
     /// Whether a sample is beyond it.

@@ -2,20 +2,21 @@
 
 use super::free_space::FreeSpace;
 use super::{ExplorerSettings, Rectangle};
-use crate::{Candidate, Pass, StraightScan};
+use crate::{Pass, StraightScan};
+use rod_contact::ClampPath;
 use rod_core::Rod;
 
 /// How far the tip of the straight rod goes beyond the nearest place that the rod has not passed, rod lengths. No object is nearer to the clamp's path than the rest of the
-/// rod, so that the rod is bent little. Larger: fewer scans, and larger stress where the object begins at once.
-const DEPTH: f64 = 0.2;
+/// rod. Larger: fewer scans, and larger stress where the object begins at once, so that the rig stops.
+pub(super) const DEPTH: f64 = 0.5;
 
 /// The scan that goes through the largest area that the rod has not passed, with the tip of the rod only; the first angle of equal ones. None where the stage allows none.
 pub(super) fn approach(
     rod: &Rod,
     settings: &ExplorerSettings,
     space: &FreeSpace,
-    is_allowed: impl Fn(&Candidate) -> bool,
-) -> Option<Candidate> {
+    is_allowed: impl Fn(ClampPath) -> bool,
+) -> Option<ClampPath> {
     let candidate = |(number, &angle): (usize, &f64)| {
         let limit = space.frontier(angle)? + DEPTH * rod.length();
         // alternating passes: the rod trails to either side
@@ -23,8 +24,7 @@ pub(super) fn approach(
         let scan = StraightScan { distance: (1.0 - DEPTH) * rod.length(), angle, pass };
         let across = Rectangle::extent(&settings.object, angle + std::f64::consts::FRAC_PI_2);
         let path = scan.path(limit - DEPTH * rod.length(), across, rod.length()).ok()?;
-        let candidate = Candidate { scan: Some(scan), path };
-        (space.allows(path) && is_allowed(&candidate)).then(|| (candidate, space.unknown_area(angle, limit)))
+        (space.allows(path) && is_allowed(path)).then(|| (path, space.unknown_area(angle, limit)))
     };
     let all = settings.angles.iter().enumerate().filter_map(candidate);
     all.reduce(|best, one| if one.1 > best.1 { one } else { best }).map(|best| best.0)

@@ -5,18 +5,19 @@ use super::ExplorerSettings;
 use super::free_space::FreeSpace;
 use crate::forecast::{candidates_of, hypotheses, plan_of};
 use crate::{Candidate, Forecast, Measurement, PlanError, PlanSettings, ReachGrid};
+use rod_contact::ClampPath;
 use rod_core::Rod;
 use rod_reconstruct::FittedObject;
 
 /// The candidate that adds most to what is known, and what it adds (m): length newly touched, and length of the contour that gets as certain as asked for. None where
-/// nothing is known, or no scan is safe.
+/// nothing is known, or no safe scan adds [`ExplorerSettings::least_gain`].
 pub(super) fn best_scan(
     rod: &Rod,
     settings: &ExplorerSettings,
     known: &[FittedObject],
     space: &FreeSpace,
-    is_allowed: impl Fn(&Candidate) -> bool,
-) -> Result<Option<(Forecast, f64)>, ExploreError> {
+    is_allowed: impl Fn(ClampPath) -> bool,
+) -> Result<Option<(Forecast, ClampPath, f64)>, ExploreError> {
     let grid =
         ReachGrid { distances: settings.distances.clone(), angles: settings.angles.clone(), ..ReachGrid::of(rod) };
     let plan_settings = PlanSettings {
@@ -35,16 +36,21 @@ pub(super) fn best_scan(
             all => break all?,
         };
     };
-    let candidates = candidates_of(&hypotheses, &grid, rod.length())?;
+    let candidates = candidates_of(&hypotheses, grid.scans(), rod.length())?;
+    let is_safe = |path: ClampPath| space.allows(path) && is_allowed(path);
     let safe: Vec<Candidate> =
-        candidates.into_iter().filter(|candidate| space.allows(candidate.path) && is_allowed(candidate)).collect();
+        candidates.into_iter().filter(|candidate| candidate.path.straight().is_some_and(is_safe)).collect();
     if safe.is_empty() {
         return Ok(None);
     }
     let plan = plan_of(rod, &chains, hypotheses, &safe, &plan_settings, &|_| true)?;
     let allowed = plan.allowed(Some(settings.largest_stress));
-    let forecasts = plan.forecasts.iter().enumerate().filter(|(k, _)| allowed.contains(k)).map(|(_, one)| one);
-    let valued = forecasts.map(|forecast| (forecast, forecast.gain + forecast.improved(settings.sigma)));
+    let worth = |k: usize| plan.forecasts[k].gain + plan.forecasts[k].improved(settings.sigma);
+    let valued = allowed.into_iter().map(|k| (k, worth(k))).filter(|one| one.1 >= settings.least_gain);
     let best = valued.reduce(|best, one| if one.1 > best.1 { one } else { best });
-    Ok(best.map(|(forecast, value)| (forecast.clone(), value)))
+    Ok(best.and_then(|(k, value)| {
+        let forecast = plan.forecasts[k].clone();
+        let path = forecast.candidate.path.straight()?;
+        Some((forecast, path, value))
+    }))
 }

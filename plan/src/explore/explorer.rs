@@ -1,23 +1,26 @@
 //! The loop of an exploration.
 
-use super::approach::approach;
+use super::abort::largest_moment;
+use super::approach::{DEPTH, approach};
 use super::contour::best_scan;
+use super::facing::faces;
 use super::free_space::FreeSpace;
 use super::fused::fused;
 use super::measured::Measured;
 use super::{Abort, ExploreError, ExplorerSettings};
-use crate::{Candidate, Forecast, scanned};
+use crate::{Forecast, scanned};
 use rod_contact::ClampPath;
 use rod_core::{Rod, Sample};
 use rod_reconstruct::FittedObject;
+use std::f64::consts::PI;
 
 /// Distance (rod lengths) of the poses of two scans below which they are the same: what the first did not find, the second does not either.
 const SAME: f64 = 0.02;
 
 /// What a scan is for.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum Purpose {
-    /// To find the object in space of which nothing is known.
+    /// To find the object in space of which nothing is known, or from a side that no touched part of it faces.
     Approach,
     /// To touch more of the contour, or to know it better: what is expected, and the length (m) that it adds.
     Contour {
@@ -29,7 +32,7 @@ pub enum Purpose {
 }
 
 /// The next scan.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Proposal {
     /// The way of the clamp.
     pub path: ClampPath,
@@ -95,19 +98,20 @@ impl Explorer {
 
     fn next(&self) -> Result<Option<Proposal>, ExploreError> {
         let Self { rod, settings, known, space, .. } = self;
-        let is_allowed = |candidate: &Candidate| self.is_within_stage(candidate.path) && !self.is_made(candidate.path);
-        let best = best_scan(rod, settings, known, space, is_allowed)?.filter(|best| best.1 >= settings.least_gain);
-        let (path, purpose, force) = match best {
-            Some((forecast, value)) => {
-                let (path, force) = (forecast.candidate.path, forecast.largest_force);
+        let is_allowed = |path: ClampPath| self.is_within_stage(path) && !self.is_made(path);
+        let (path, purpose, force) = match best_scan(rod, settings, known, space, is_allowed)? {
+            Some((forecast, path, value)) => {
+                let force = forecast.largest_force;
                 (path, Purpose::Contour { forecast: Box::new(forecast), value }, force)
             }
-            None if known.is_empty() => match approach(rod, settings, space, is_allowed) {
-                // the tip is bent at most so far as to lie along the path: a force of 4 E I / L^2 for the last 0.8 L
-                Some(candidate) => (candidate.path, Purpose::Approach, 4.0 * rod.units().force),
+            None => match approach(rod, settings, space, |path| is_allowed(path) && self.is_from_new_side(path)) {
+                // the largest moment, by the shortest lever: no object is nearer to the path
+                Some(path) => {
+                    let moment = largest_moment(rod, settings.largest_stress).unwrap_or(0.0);
+                    (path, Purpose::Approach, moment / ((1.0 - DEPTH) * rod.length()))
+                }
                 None => return Ok(None),
             },
-            None => return Ok(None),
         };
         Ok(Abort::of(rod, settings.largest_stress, force).map(|abort| Proposal { path, purpose, abort }))
     }
@@ -126,17 +130,44 @@ impl Explorer {
             return Err(ExploreError::Elsewhere { x: pose.x, y: pose.y, from_x: from.x, from_y: from.y });
         }
         let measured = Measured::of(&self.rod, &self.settings, samples)?;
+        self.made.push(path);
+        self.take(samples, &measured);
+        self.proposed = None;
+        self.finished = (self.made.len() >= self.settings.most_scans).then_some(Finish::MostScans);
+        Ok(())
+    }
+
+    /// Takes the samples of a scan that was made before the exploration, or beside it. It is none of the scans of which [`ExplorerSettings::most_scans`] allows some. A
+    /// proposal that was not made yet is withdrawn.
+    ///
+    /// # Errors
+    /// [`ExploreError::Reconstruct`]; then nothing has changed.
+    pub fn add(&mut self, samples: &[Sample]) -> Result<(), ExploreError> {
+        let measured = Measured::of(&self.rod, &self.settings, samples)?;
+        self.add_measured(samples, &measured);
+        Ok(())
+    }
+
+    /// [`add`](Self::add) of a scan that is reconstructed already: `objects` are the contours that explain its samples.
+    pub fn add_known(&mut self, samples: &[Sample], objects: Vec<FittedObject>) {
+        self.add_measured(samples, &Measured { objects, is_explained: true });
+    }
+
+    fn add_measured(&mut self, samples: &[Sample], measured: &Measured) {
+        self.take(samples, measured);
+        self.proposed = None;
+        self.finished = self.finished.filter(|finish| *finish == Finish::MostScans);
+    }
+
+    fn take(&mut self, samples: &[Sample], measured: &Measured) {
+        let length = self.rod.length();
         if measured.is_explained {
             for pair in measured.shapes(&self.rod, samples, scanned::STEP * length).windows(2) {
                 self.space.pass(&pair[0], &pair[1], length);
             }
         }
-        self.made.push(path);
-        self.scans.push(measured.objects);
+        self.scans.push(measured.objects.clone());
         self.known = fused(&self.scans, length);
-        self.proposed = None;
-        self.finished = (self.made.len() >= self.settings.most_scans).then_some(Finish::MostScans);
-        Ok(())
     }
 
     /// Why the exploration is finished; none while it is not.
@@ -162,6 +193,13 @@ impl Explorer {
     fn is_within_stage(&self, path: ClampPath) -> bool {
         let ends = [path.at(0.0), path.at(path.length())];
         self.settings.stage.is_none_or(|stage| ends.iter().all(|end| stage.bounds.contains([end.x, end.y])))
+    }
+
+    /// Whether no touched part of the contour faces the clamp, and no scan came from there.
+    fn is_from_new_side(&self, path: ClampPath) -> bool {
+        let angle = path.at(0.0).phi;
+        let was_there = self.made.iter().any(|made| (made.at(0.0).phi - angle).abs() < 1e-6);
+        self.known.is_empty() || !(was_there || faces(&self.known, angle + PI))
     }
 
     fn is_made(&self, path: ClampPath) -> bool {

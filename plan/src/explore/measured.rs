@@ -50,10 +50,19 @@ impl Measured {
         Ok(Self { objects: objects.collect(), is_explained: false })
     }
 
-    /// The shapes of the rod along the way of the samples, points in m, as the contour gives them.
+    /// The shapes of the rod along the way of the samples, points in m, as the contour gives them; none where the way is not straight.
     pub fn shapes(&self, rod: &Rod, samples: &[Sample], step: f64) -> Vec<Vec<[f64; 2]>> {
         let (Some(first), Some(last)) = (samples.first(), samples.last()) else { return Vec::new() };
         let Ok(path) = ClampPath::new(first.pose, last.pose) else { return Vec::new() };
+        let is_beside = |sample: &Sample| {
+            let (pose, rate) = (sample.pose, path.rate());
+            let way = (pose.x - first.pose.x) * rate.x + (pose.y - first.pose.y) * rate.y;
+            let at = path.at(way);
+            (pose.x - at.x).hypot(pose.y - at.y) > step || (pose.phi - at.phi).abs() * rod.length() > step
+        };
+        if path.turns_only() || samples.iter().any(is_beside) {
+            return Vec::new();
+        }
         let objects: Vec<Composite> = self.objects.iter().filter_map(|object| object.contour().ok()).collect();
         let Ok(sweep) = Sweep::new(rod, &objects, path, step) else { return Vec::new() };
         let shape = |item| match item {

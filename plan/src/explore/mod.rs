@@ -1,6 +1,6 @@
 //! Active exploration: the next scan, from all that was measured so far.
 //!
-//! `explorer` is the loop. `approach` proposes scans of which nothing is known, `contour` those along what is known. `fused` makes one contour of several scans,
+//! `explorer` is the loop. `approach` proposes scans of which nothing is known, `contour` those along what is known; `facing` knows which sides were touched. `fused` makes one contour of several scans,
 //! `free_space` knows where no object is, `measured` reconstructs a recording.
 
 mod abort;
@@ -8,6 +8,7 @@ mod approach;
 mod contour;
 mod error;
 mod explorer;
+mod facing;
 mod free_space;
 mod fused;
 mod measured;
