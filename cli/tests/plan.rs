@@ -159,7 +159,7 @@ fn a_result_that_cannot_be_planned_from_is_named() {
 fn an_object_in_a_box_is_approached() {
     let directory = tempfile::tempdir().unwrap();
     let file = scene("O1_q40.toml");
-    let arguments = ["plan", "--box", "-0.02,0.0,0.02,0.04", "--rod", file.to_str().unwrap(), "--scans", "2"];
+    let arguments = ["plan", "--box", "-0.06,0.0,0.06,0.12", "--rod", file.to_str().unwrap(), "--scans", "2"];
     let output = vibrissa(directory.path(), &arguments);
     assert!(!output.status.success());
     let output = vibrissa(directory.path(), &[arguments.as_slice(), &["--stress", "1.5e9"]].concat());
@@ -169,7 +169,7 @@ fn an_object_in_a_box_is_approached() {
     let out = directory.path().join("out/plan");
     let record: serde_json::Value = serde_json::from_slice(&fs::read(out.join("plan.json")).unwrap()).unwrap();
     let chosen = record["chosen"].as_array().unwrap();
-    assert_eq!((chosen.len(), &record["box"]), (2, &serde_json::json!([[-0.02, 0.0], [0.02, 0.04]])));
+    assert_eq!((chosen.len(), &record["box"]), (2, &serde_json::json!([[-0.06, 0.0], [0.06, 0.12]])));
     for scan in chosen {
         let number = |end: &str, k: usize| scan[end][k].as_f64().unwrap();
         // from far beyond the box on one side to far beyond it on the other
@@ -178,7 +178,7 @@ fn an_object_in_a_box_is_approached() {
         assert!(way > 0.24, "{scan}");
         // all corners on the side of the rod
         let (sin, cos) = number("from", 2).sin_cos();
-        for corner in [[-0.02, 0.0], [0.02, 0.0], [0.02, 0.04], [-0.02, 0.04]] {
+        for corner in [[-0.06, 0.0], [0.06, 0.0], [0.06, 0.12], [-0.06, 0.12]] {
             let ahead = (corner[0] - number("from", 0)) * cos + (corner[1] - number("from", 1)) * sin;
             assert!(ahead > 0.0, "{scan}");
         }
