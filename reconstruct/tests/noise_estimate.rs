@@ -38,7 +38,7 @@ fn noise_of_known_make_is_found_again() {
 fn few_samples_tell_their_noise_roughly() {
     let tau: Vec<f64> = (0..500).map(|i| 2e-3 * f64::from(i)).collect();
     let clean: Vec<f64> = tau.iter().map(|t| 4.0 * (3.0 * t).sin()).collect();
-    for (rho, within) in [(0.0, [0.7, 1.4]), (0.45, [0.45, 1.4])] {
+    for (rho, within) in [(0.0, [0.8, 1.6]), (0.45, [0.45, 1.4])] {
         let long_run: f64 = (1.0 + rho) / (1.0 - rho);
         let of_seed = |seed| {
             let found = estimate(&tau, &Noise::new(seed, rho).add(0.1, &clean));
@@ -49,7 +49,7 @@ fn few_samples_tell_their_noise_roughly() {
         ratios.sort_by(f64::total_cmp);
         z.sort_by(f64::total_cmp);
         println!("{rho}: ratio {:.2} to {:.2}, z {:.1} to {:.1} in 80 %", ratios[10], ratios[89], z[10], z[89]);
-        assert!(ratios[10] > within[0] && ratios[89] < within[1] && z[10] > -2.5 && z[89] < 2.0, "{rho}");
+        assert!(ratios[10] > within[0] && ratios[89] < within[1] && z[10] > -3.0 && z[89] < 2.0, "{rho}");
     }
 }
 
