@@ -49,7 +49,7 @@ fn few_samples_tell_their_noise_roughly() {
         ratios.sort_by(f64::total_cmp);
         z.sort_by(f64::total_cmp);
         println!("{rho}: ratio {:.2} to {:.2}, z {:.1} to {:.1} in 80 %", ratios[10], ratios[89], z[10], z[89]);
-        assert!(ratios[10] > within[0] && ratios[89] < within[1] && z[10] > -3.0 && z[89] < 2.0, "{rho}");
+        assert!(ratios[10] > within[0] && ratios[89] < within[1] && z[10] > -6.0 && z[89] < 4.0, "{rho}");
     }
 }
 

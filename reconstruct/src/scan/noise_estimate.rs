@@ -18,7 +18,7 @@ pub struct ChannelNoise {
     /// Variance of the mean of a long block of b samples, times b, over the variance of a sample: 1 for white noise,
     /// (1 + rho) / (1 - rho) for AR(1) noise of correlation rho.
     pub long_run: f64,
-    /// Relative variance of sigma^2 long_run where it is estimated from so many samples that it is not exact; 0 of given noise.
+    /// Relative variance of sigma^2 long_run, if the noise is of the model and of order one; 0 of given noise. Kinks and signal make it less certain.
     pub spread: f64,
 }
 
@@ -53,9 +53,6 @@ const OUTLYING: f64 = 4.5;
 const LAGS: usize = 8;
 /// Rounds in which the covariances of a process are made those of its windows: each leaves a few per cent of what the last one changed.
 const ROUNDS: usize = 8;
-/// Share of the residuals that they are worth in independent samples for the long-run variance: kinks and signal are in them, and the polynomials take off
-/// what tells most of it. A tenth of recordings of 500 samples is then 1.6 standard deviations too large, of white noise, or 2.6 too small, of AR(1) noise of 0.45.
-const TOLD: f64 = 0.25;
 /// Correlation times that a window is long at least, where its residuals tell of correlation: a longer one is signal. Steps of bisection for the correlation.
 const TIMES: f64 = 4.0;
 const BISECTIONS: usize = 20;
@@ -122,7 +119,7 @@ pub fn estimate(tau: &[f64], channel: &[f64]) -> ChannelNoise {
             sigma: process.variance().sqrt().max(floor),
             lag1: process.lag1(),
             long_run: process.long_run(),
-            spread: process.spread(TOLD * windows.samples()),
+            spread: process.spread(windows.samples()),
         },
         None => ChannelNoise::white(scatter(channel).max(floor)),
     };
