@@ -28,15 +28,6 @@ pub(crate) fn upper_tail(x: f64, freedom: f64) -> f64 {
     beyond((((x / freedom).max(0.0)).cbrt() - (1.0 - spread)) / spread.sqrt())
 }
 
-/// [`upper_tail`] where the unit of chi squared is itself estimated, `x` over its degrees of freedom is `ratio`, and the square of the unit has this relative
-/// variance: of F distributed ratios with 2 / `spread` degrees of freedom below, by the approximation of Paulson (1942). Within a fifth of itself down to 1e-5
-/// from 30 degrees of freedom on either side on.
-pub(crate) fn upper_tail_of_ratio(ratio: f64, freedom: f64, spread: f64) -> f64 {
-    let (above, below) = (2.0 / (9.0 * freedom), spread / 9.0);
-    let root = ratio.max(0.0).cbrt();
-    beyond(((1.0 - below) * root - (1.0 - above)) / (below * root * root + above).sqrt())
-}
-
 /// The probability that a standard normal variable is `z` or more, relative error below 1e-8: by its Taylor series, and from 2 on by the
 /// continued fraction of Laplace.
 pub(crate) fn beyond(z: f64) -> f64 {
@@ -80,17 +71,6 @@ mod tests {
         }
         for (x, freedom, p) in [(50.0, 36.0, 0.060_475), (80.0, 36.0, 3.470e-5), (1800.0, 1700.0, 0.045_147)] {
             assert!((upper_tail(x, freedom) / p - 1.0).abs() < 0.1, "{x} {freedom} {}", upper_tail(x, freedom));
-            assert_eq!(upper_tail_of_ratio(x / freedom, freedom, 0.0), upper_tail(x, freedom));
-        }
-        // SciPy: stats.f.sf(ratio, freedom, below)
-        for (ratio, freedom, below, p) in [
-            (1.5, 100.0, 60.0, 0.044_89),
-            (1.7, 98.0, 200.0, 8.598e-4),
-            (1.3, 1000.0, 500.0, 4.427e-4),
-            (2.6, 36.0, 555.0, 2.148e-6),
-        ] {
-            let found = upper_tail_of_ratio(ratio, freedom, 2.0 / below);
-            assert!((found / p - 1.0).abs() < 0.2, "{ratio} {freedom} {below} {found}");
         }
     }
 
