@@ -5,10 +5,8 @@ use super::choose::{Allowed, choose};
 use super::observation::{Axis, Measurand};
 use super::observed::Observed;
 use super::problem::reactions;
+use crate::numeric::CHANCE;
 use rod_core::{RodModel, Units};
-
-/// Standard deviations of the end points within which a length is noise.
-pub(super) const SIGMAS: f64 = 4.0;
 
 /// The same frame if the base of the rod is hidden: the length that no point shows lies before the first point, and the last point is the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +39,7 @@ pub(super) fn hidden_base<M: RodModel>(
     let places = [Axis::X, Axis::Y].map(|axis| [Measurand::Base(axis), Measurand::Support(axis)]);
     let is_measured = places.as_flattened().iter().any(|place| observed.channel(*place).is_some());
     let hidden = 1.0 - best.feet.last()?;
-    let is_noise = hidden <= SIGMAS * first.sigma.hypot(last.sigma);
+    let is_noise = hidden <= CHANCE * first.sigma.hypot(last.sigma);
     if is_measured || is_noise || best.shape.contacts.is_empty() || !best.explains() {
         return None;
     }
