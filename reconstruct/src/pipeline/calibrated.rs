@@ -122,8 +122,15 @@ impl Calibrated {
         self.friction.map(|found| FrictionEstimate { gain: gain.unwrap_or(found.gain), ..found })
     }
 
-    fn scan<'a>(&'a self, rod: &'a Rod) -> CalibrationScan<'a> {
-        CalibrationScan { rod, track: &self.track, noise: &self.noise, breaks: &self.breaks, places: &self.places }
+    fn scan<'a>(&'a self, rod: &'a Rod) -> CalibrationScan<'a, Uniform> {
+        CalibrationScan {
+            inverse: &Uniform,
+            rod,
+            track: &self.track,
+            noise: &self.noise,
+            breaks: &self.breaks,
+            places: &self.places,
+        }
     }
 
     /// Estimates the errors that all samples share, and subtracts those that the scan needs.
@@ -148,7 +155,7 @@ impl Calibrated {
                 *units = report.rod(rod).units();
             }
             shared.weaken_breaks(places);
-            shared.update_evidence(&Errors::zeros(), track, places);
+            shared.update_evidence(&Uniform, &Errors::zeros(), track, places);
             report.shift(Source::Friction, plateau);
             if let Some((found, own)) = friction.as_mut().zip(report.source(Source::Friction).copied()) {
                 report.direction = found.mu.signum() * (0.5 - found.against).signum();

@@ -42,8 +42,8 @@ pub(super) fn reconstruct_calibrated<I: Inverse>(
     let Calibrated { track, indices, found, kinks, noise, steps, breaks, places, units, calibration, friction } = scan;
     let phases = identify_phases(rod, &track, &noise, places);
     let shared = calibration.as_ref().map(|calibration| &calibration.0);
-    let systematic =
-        shared.map_or_else(Vec::new, |shared| shared.point_covariances(&track, &noise, &phases.places, &phases.labels));
+    let systematic = shared
+        .map_or_else(Vec::new, |shared| shared.point_covariances(rod, &track, &noise, &phases.places, &phases.labels));
     let answers = Answers {
         rod,
         track: &track,
