@@ -35,13 +35,11 @@ impl Reconstructed {
         )?;
         let (kinks, gaps) = (self.found.kinks.len(), self.contour.gaps.len());
         writeln!(text, "{}, {}", counted(kinks, "kink"), counted(gaps, "gap"))?;
-        match self.missing() {
-            Some(missing) => writeln!(text, "{missing}")?,
-            None => {
-                self.tell_friction(text)?;
-                self.tell_calibration(text)?;
-            }
+        if let Some(missing) = self.missing() {
+            writeln!(text, "{missing}")?;
         }
+        self.tell_friction(text)?;
+        self.tell_calibration(text)?;
         self.tell_physics(text)?;
         self.tell_fit(text)?;
         text.push_str(&self.run_table().to_string());

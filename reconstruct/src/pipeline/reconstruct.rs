@@ -28,7 +28,13 @@ use rod_core::{Rod, Sample, Uniform, Units};
 /// # Errors
 /// [`ReconstructError`].
 pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Reconstruction, ReconstructError> {
-    Ok(reconstruct_calibrated(&Uniform, rod.units(), samples, Calibrated::of(rod, samples, settings)?, settings))
+    Ok(reconstruct_calibrated(
+        &Uniform,
+        rod.units(),
+        samples,
+        Calibrated::of(&Uniform, rod, samples, settings)?,
+        settings,
+    ))
 }
 
 /// The labels and contact points of a scan; `given` are the units of the rod as it was given.
