@@ -210,13 +210,10 @@ fn alone(settings: &Settings) -> Settings {
 fn allowed<I: Inverse>(rod: &Rod, settings: &Settings) -> Result<Budget, ReconstructError> {
     let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
     possible(&budget, &settings.known)?;
-    if I::UNIFORM {
-        return Ok(budget);
-    }
-    // such a rod is bent at rest as its model says
+    // another rod than the uniform one is bent at rest as its model says
     match settings.known.of(Source::NaturalCurvature) {
-        Some(_) => Err(ReconstructError::NaturalCurvature),
-        None => Ok(Budget { natural_curvature: 0.0, ..budget }),
+        Some(_) if !I::UNIFORM => Err(ReconstructError::NaturalCurvature),
+        _ => Ok(budget),
     }
 }
 

@@ -18,7 +18,7 @@ use rod_core::{PhysicalRod, Rod, Sample};
 /// suggest, and no contact points ([`Unresolved`](crate::Unresolved)): so it is where BB turns into BA and noise hides that kink.
 ///
 /// Errors that all samples share are estimated, taken off, and part of the covariances as for the uniform rod, but for one of its natural
-/// curvature, which is that of the model. An error of the length stretches the rod as a whole, and one of the stiffness is the same all along it.
+/// curvature, which [`fit_contour`](crate::fit_contour) alone estimates. An error of the length stretches the rod as a whole, and one of the stiffness is the same all along it.
 ///
 /// Accuracy: on noise-free samples single contact points are exact to 1e-9 of the rod's length, and so is the first of two contacts to 1e-8. The
 /// second one is within 1e-8 of the contour; along it, 1e-6. In noise, each has its covariance.

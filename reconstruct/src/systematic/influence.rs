@@ -94,7 +94,8 @@ pub(super) fn criteria_derivatives<I: Inverse>(
     by_errors: &SMatrix<f64, INPUTS, SOURCES>,
     zeros: bool,
 ) -> SMatrix<f64, CRITERIA, SOURCES> {
-    let is_bent = by_errors.row(NATURAL).iter().any(|by| *by != 0.0);
+    // another rod than the uniform one is bent at rest as its model says
+    let is_bent = I::UNIFORM && by_errors.row(NATURAL).iter().any(|by| *by != 0.0);
     let mut by_inputs = SMatrix::<f64, CRITERIA, INPUTS>::zeros();
     let [clamp, rate] = [&place.0, &place.1];
     for c in 0..3 {
@@ -104,7 +105,7 @@ pub(super) fn criteria_derivatives<I: Inverse>(
     let first = if zeros || !I::UNIFORM { rod.first(clamp).ok() } else { None };
     if let Some((_, by_reactions)) = rod.criterion(clamp, first.as_ref()) {
         by_inputs.fixed_view_mut::<1, 3>(k, REACTIONS).copy_from(&by_reactions.transpose());
-        by_inputs[(k, NATURAL)] = -2.0 * r.z;
+        by_inputs[(k, NATURAL)] = if I::UNIFORM { -2.0 * r.z } else { 0.0 };
         by_inputs[(k, FRICTION)] = -2.0 * r.x.hypot(r.y) * (1.0 + clamp.friction * clamp.friction).powf(-1.5);
     }
     if let Some(first) = first.filter(|_| zeros) {
