@@ -181,17 +181,17 @@ impl Comparison {
         }
         text.push_str(&table.to_string());
         let real = self.kinks_of_events.matches.len();
+        let [unit, error] = if scene.turns_only() { ["mrad", "error mrad"] } else { ["mm", "error mm"] };
         writeln!(
             text,
-            "kinks of the reactions: of {} changes of contact that cause one, {} were found within 1 mm of the clamp's way; \
+            "kinks of the reactions: of {} changes of contact that cause one, {} were found within 1 {unit} of the clamp's way; \
              of {} kinks found, {real} belong to a change of contact and {} to none",
             kinks.truth,
             kinks.matches.len(),
             kinks.found,
             kinks.found - real.min(kinks.found)
         )?;
-        let unit = if scene.path.turns_only() { "error mrad" } else { "error mm" };
-        let mut table = Table::new(["transition", "kind"].into_iter().chain(clamp.names()).chain([unit]));
+        let mut table = Table::new(["transition", "kind"].into_iter().chain(clamp.names()).chain([error]));
         for Transition { from, to, kind, pose, error } in &self.transitions {
             let error = error.map_or_else(|| "-".into(), |error| format!("{:.4}", 1e3 * error));
             let transition = [format!("{from} -> {to}"), kind.to_string()];
