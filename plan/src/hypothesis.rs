@@ -4,7 +4,7 @@
 //! curvature, one of those along it, each as likely, for a rod length at most. Ends that turn towards each other there meet, unless they are far apart. Between touched points the hollows that the rod bridged are deeper or
 //! shallower by a share of the room of the points, the same all along, uniform from -1 to 1. The touched points stay where they are.
 
-use crate::joined::{Joined, joined};
+use crate::joined::{Joined, joined, touched_runs};
 use crate::{IntervalSet, Outline, support};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -53,9 +53,19 @@ impl Hypothesis {
         (count, seed): (usize, u64),
         may_be: &dyn Fn([f64; 2]) -> bool,
     ) -> Vec<Self> {
-        let contours = joined(contours, length);
+        let middle =
+            |contours: &[Joined]| Self::of(contours, length, &mut |curvatures| median(curvatures), &mut || 0.0, may_be);
+        let whole = joined(contours, length);
+        let (contours, middle) = match middle(&whole) {
+            Some(found) => (whole, Some(found)),
+            None => {
+                // bounded stretches of two scans overlap, so that the contour would cross itself
+                let touched = joined(&contours.iter().flat_map(touched_runs).collect::<Vec<_>>(), length);
+                let found = middle(&touched);
+                (touched, found)
+            }
+        };
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let middle = Self::of(&contours, length, &mut |curvatures| median(curvatures), &mut || 0.0, may_be);
         let mut all: Vec<Self> = middle.into_iter().collect();
         for _ in 0..count {
             for _ in 0..DRAWS {
@@ -275,6 +285,22 @@ mod tests {
             assert_eq!(one.objects.len(), 1);
             assert!((one.touched[0].length() - 0.2 * 1.2).abs() < 1e-3, "{:?}", one.touched);
         }
+    }
+
+    #[test]
+    fn bounded_points_that_contradict_each_other_do_not_hinder_what_was_touched() {
+        // beyond the start of the arc and once in the middle the bounds of two scans overlap
+        let mut contour = arc(-2.3, 4.4, 80);
+        contour.known[..12].fill(Knowledge::Bounded { room: 0.01 });
+        contour.known[36..44].fill(Knowledge::Bounded { room: 0.01 });
+        contour.points.swap(38, 41);
+        let all = Hypothesis::all(&[contour], 1.0, (2, 1), &|_| true);
+        assert_eq!(all.len(), 3);
+        let (outline, touched) = (&all[0].outlines[0], &all[0].touched[0]);
+        // of the 79 steps, 12 before the touched points, and 9 in the middle
+        let expected = 0.2 * 58.0 * 6.7 / 79.0;
+        assert!(outline.is_closed() && (outline.length() - 0.4 * PI).abs() < 0.01, "{}", outline.length());
+        assert!((touched.length() - expected).abs() < 1e-3, "{touched:?} {expected}");
     }
 
     #[test]

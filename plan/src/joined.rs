@@ -68,10 +68,21 @@ fn append(Joined { contour, starts }: &mut Joined, Joined { contour: after, star
 /// From the first to the last point of which anything is known.
 fn without_unknown_ends(contour: &FittedObject) -> FittedObject {
     let is_known = |known: &Knowledge| *known != Knowledge::Unknown;
-    let (first, last) = match (contour.known.iter().position(is_known), contour.known.iter().rposition(is_known)) {
-        (Some(first), Some(last)) => (first, last),
-        _ => return FittedObject { points: Vec::new(), vertices: Vec::new(), known: Vec::new() },
-    };
+    match (contour.known.iter().position(is_known), contour.known.iter().rposition(is_known)) {
+        (Some(first), Some(last)) => part(contour, first, last),
+        _ => FittedObject { points: Vec::new(), vertices: Vec::new(), known: Vec::new() },
+    }
+}
+
+/// The runs of its points that were touched.
+pub(crate) fn touched_runs(contour: &FittedObject) -> Vec<FittedObject> {
+    let is_touched = |k: &usize| contour.known[*k].sigma().is_some();
+    let touched: Vec<usize> = (0..contour.points.len()).filter(is_touched).collect();
+    touched.chunk_by(|one, next| one + 1 == *next).map(|run| part(contour, run[0], run[run.len() - 1])).collect()
+}
+
+/// From one of its points to another.
+fn part(contour: &FittedObject, first: usize, last: usize) -> FittedObject {
     let vertices =
         contour.vertices.iter().filter(|vertex| (first + 1..last).contains(vertex)).map(|vertex| vertex - first);
     FittedObject {
