@@ -70,8 +70,7 @@ impl Learned {
                     &corrected,
                     &covariance,
                     label,
-                    &self.shared.factor,
-                    0.0,
+                    (&self.shared.factor, 0.0),
                 );
                 let earlier = self.point.filter(|point| point.1 == label).map(|point| point.2);
                 let found = found.or(earlier).ok_or(Reason::Unshared)?;

@@ -184,8 +184,7 @@ pub(crate) fn point_covariance<I: Inverse>(
     measured: &LocalEstimate,
     noise: &Matrix3<f64>,
     label: Label,
-    factor: &Joint,
-    misfit: f64,
+    (factor, misfit): (&Joint, f64),
 ) -> Option<Matrix2<f64>> {
     let (by_errors, by_reactions) = point_derivatives(rod, around, tau, measured, noise, label)?;
     let spread = by_errors * factor;

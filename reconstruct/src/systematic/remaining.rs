@@ -110,7 +110,7 @@ impl RemainingErrors {
             let covariance = if noise.is_clean() { Matrix3::zeros() } else { measured.covariance() };
             let criterion = if label == Label::A { Criterion::Length } else { Criterion::K };
             let misfit = self.scatter[criterion as usize].powi(2) - 1.0;
-            point_covariance(rod, &around, tau, &measured, &covariance, label, &self.factor, misfit)
+            point_covariance(rod, &around, tau, &measured, &covariance, label, (&self.factor, misfit))
         };
         // a force that has hardly begun has no derivatives: such a place takes those of the nearest place of its label
         let mut found: Vec<Option<Matrix2<f64>>> = Vec::with_capacity(places.len());
