@@ -222,12 +222,14 @@ impl PyExplorer {
     }
 
     /// Why the exploration is finished, or None: ``precise``, what was touched is known as well as asked for, and no scan is expected to add
-    /// anything worth it; ``nothing left``, some of it is less certain; ``most scans``.
+    /// anything worth it; ``nothing left``, some of it is less certain; ``no object``, none can be drawn
+    /// through what was touched; ``most scans``.
     #[getter]
     fn finished(&self) -> Option<&'static str> {
         self.lock().finished().map(|finish| match finish {
             Finish::Precise => "precise",
             Finish::NothingLeft => "nothing left",
+            Finish::NoObject => "no object",
             Finish::MostScans => "most scans",
         })
     }

@@ -5,6 +5,7 @@ use super::ExplorerSettings;
 use super::free_space::FreeSpace;
 use crate::choice::exhaustive;
 use crate::forecast::{candidates_of, hypotheses, plan_of};
+use crate::hypothesis::Hypothesis;
 use crate::{Candidate, Forecast, Measurement, PlanError, PlanSettings, ReachGrid};
 use rod_contact::ClampPath;
 use rod_core::Rod;
@@ -25,22 +26,8 @@ pub(super) fn best_scan(
 ) -> Result<Option<(Forecast, ClampPath, f64)>, ExploreError> {
     let grid =
         ReachGrid { distances: settings.distances.clone(), angles: settings.angles.clone(), ..ReachGrid::of(rod) };
-    let plan_settings = PlanSettings {
-        hypotheses: settings.hypotheses,
-        seed: settings.seed,
-        speed: settings.speed,
-        measurement: Some(Measurement::of(&settings.noise, settings.spacing, known, rod.length())),
-    };
-    // chains that contradict each other give no object: the longest ones hold
-    let mut chains: Vec<FittedObject> = known.to_vec();
-    chains.sort_by_key(|chain| std::cmp::Reverse(chain.points.len()));
-    let hypotheses = loop {
-        match hypotheses(&chains, rod.length(), &plan_settings, &|point| space.may_be(point)) {
-            Err(PlanError::NothingKnown) if chains.len() > 1 => chains.pop(),
-            Err(PlanError::NothingKnown) => return Ok(None),
-            all => break all?,
-        };
-    };
+    let plan_settings = plan_settings(rod, settings, known);
+    let Some((chains, hypotheses)) = drawn(rod, &plan_settings, known, space)? else { return Ok(None) };
     let candidates = candidates_of(&hypotheses, grid.scans(), rod.length())?;
     let is_safe = |path: ClampPath| space.allows(path) && is_allowed(path);
     let safe: Vec<Candidate> =
@@ -60,4 +47,48 @@ pub(super) fn best_scan(
         let path = forecast.candidate.path.straight()?;
         Some((forecast, path, value))
     }))
+}
+
+/// Whether an object can be drawn through what is known of a contour.
+///
+/// # Errors
+/// [`ExploreError`].
+pub(super) fn is_drawn(
+    rod: &Rod,
+    settings: &ExplorerSettings,
+    known: &[FittedObject],
+    space: &FreeSpace,
+) -> Result<bool, ExploreError> {
+    Ok(drawn(rod, &plan_settings(rod, settings, known), known, space)?.is_some())
+}
+
+fn plan_settings(rod: &Rod, settings: &ExplorerSettings, known: &[FittedObject]) -> PlanSettings {
+    PlanSettings {
+        hypotheses: settings.hypotheses,
+        seed: settings.seed,
+        speed: settings.speed,
+        measurement: Some(Measurement::of(&settings.noise, settings.spacing, known, rod.length())),
+    }
+}
+
+/// What is known of a contour, as far as objects can be drawn through it, and these objects.
+type Drawn = (Vec<FittedObject>, Vec<Hypothesis>);
+
+/// Objects through what is known of a contour; none where there is no such object.
+fn drawn(
+    rod: &Rod,
+    settings: &PlanSettings,
+    known: &[FittedObject],
+    space: &FreeSpace,
+) -> Result<Option<Drawn>, ExploreError> {
+    // chains that contradict each other give no object: the longest ones hold
+    let mut chains: Vec<FittedObject> = known.to_vec();
+    chains.sort_by_key(|chain| std::cmp::Reverse(chain.points.len()));
+    loop {
+        match hypotheses(&chains, rod.length(), settings, &|point| space.may_be(point)) {
+            Err(PlanError::NothingKnown) if chains.len() > 1 => chains.pop(),
+            Err(PlanError::NothingKnown) => return Ok(None),
+            all => return Ok(Some((chains, all?))),
+        };
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::abort::largest_moment;
 use super::approach::{DEPTH, approach};
-use super::contour::best_scan;
+use super::contour::{best_scan, is_drawn};
 use super::facing::faces;
 use super::free_space::FreeSpace;
 use super::fused::fused;
@@ -49,6 +49,8 @@ pub enum Finish {
     Precise,
     /// No scan that may be made is expected to add anything worth it, though some of the contour is less certain than asked for.
     NothingLeft,
+    /// No object can be drawn through what was touched, so that nothing is known of what is left.
+    NoObject,
     /// As many scans were made as allowed.
     MostScans,
 }
@@ -90,7 +92,13 @@ impl Explorer {
         if self.proposed.is_none() && self.finished.is_none() {
             self.proposed = self.next()?;
             if self.proposed.is_none() {
-                self.finished = Some(if self.is_precise() { Finish::Precise } else { Finish::NothingLeft });
+                let Self { rod, settings, known, space, .. } = &*self;
+                let is_lost = !known.is_empty() && !is_drawn(rod, settings, known, space)?;
+                self.finished = Some(match self.is_precise() {
+                    _ if is_lost => Finish::NoObject,
+                    true => Finish::Precise,
+                    false => Finish::NothingLeft,
+                });
             }
         }
         Ok(self.proposed.clone())
