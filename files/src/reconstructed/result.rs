@@ -136,8 +136,8 @@ impl Reconstructed {
                 Finding::Uncertain { .. } => false,
                 // the local answer may miss the samples without contact that the contour has
                 Finding::NoFreeStretch => !is_free,
-                // of the local answer; where the contour gives no point, it gives the reason
-                Finding::Unanswered { .. } | Finding::Lost { .. } => false,
+                // of the local answer and its corrections: the contour has its own, and the reason where it gives no point
+                Finding::Unanswered { .. } | Finding::Lost { .. } | Finding::Misfit { .. } => false,
                 _ => !is_within(finding),
             });
             let kinks = fit.unexplained_kinks(&self.found.kinks, &self.found.readings).filter(|_| had_kinks);
