@@ -5,7 +5,8 @@ use crate::guide;
 use crate::recording_arguments::{Moved, Written};
 use crate::values::Values;
 use crate::values::{
-    degrees, directory, friction, largest_stress, no_quiet, not_negative, number, positive, rectangle, seed, values,
+    degrees, directory, friction, largest_stress, no_quiet, not_negative, number, positive, rectangle, seed, speed,
+    values,
 };
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -262,8 +263,8 @@ pub struct PlanArguments {
     /// Samples in a second
     #[arg(long, value_name = "HZ", value_parser = positive, default_value_t = 500.0, allow_negative_numbers = true)]
     pub rate: f64,
-    /// Speed of the clamp, m/s
-    #[arg(long, value_name = "SPEED", value_parser = positive, default_value_t = 1e-3, allow_negative_numbers = true)]
+    /// Speed of the clamp: a number in m/s, or with a unit as "1 mm/s"
+    #[arg(long, value_name = "SPEED", value_parser = speed, default_value = "1e-3", allow_negative_numbers = true)]
     pub speed: f64,
     /// Objects that are drawn: more take longer, and give more accurate expectations
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = number, allow_negative_numbers = true)]

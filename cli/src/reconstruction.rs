@@ -1,7 +1,7 @@
 //! The command `reconstruct`.
 
 use crate::arguments::{Reconstruct, Trust};
-use crate::error::{Error, OptionError};
+use crate::error::Error;
 use crate::progress::stage;
 use crate::{UNFINISHED, complain, read_scene, read_setup, say, scan_of, signals, warn};
 use rod_files::{
@@ -19,9 +19,6 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
     signals::end();
     let given = read_calibrated_rod(&rod)?;
     let setup = trust.setup.as_deref().map_or_else(|| Ok(Setup::default()), read_setup)?;
-    if given.rod.uniform().is_none() && !trust.as_is {
-        refuse_errors(&setup)?;
-    }
     let settings = settings(&trust, &given, &setup)?;
     let mut scan = scan_of(*given.rod.at_clamp(), given.known, rod, moved, setup, written.into())?;
     scan.inputs.extend(recordings.iter().chain(&trust.noise).cloned());
@@ -98,19 +95,6 @@ pub fn reconstruct(arguments: Reconstruct) -> Result<ExitCode, Error> {
         });
     }
     Ok(verdict(&found))
-}
-
-/// Refuses the options that say something of errors that all samples share, of which nothing is known for such a rod.
-fn refuse_errors(setup: &Setup) -> Result<(), Error> {
-    if setup.errors.is_none() {
-        return Ok(());
-    }
-    let file = setup.files.first().map(|file| file.display().to_string()).unwrap_or_default();
-    let why = format!(
-        "{file} has the table [errors], but systematic errors are estimated for a rod that is uniform and straight at rest only; \
-         expected a setup without [errors]"
-    );
-    Err(OptionError { option: "--setup", why }.into())
 }
 
 /// Reads one recording, and reconstructs its samples.

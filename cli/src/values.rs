@@ -1,7 +1,7 @@
 //! The values of options, read and checked.
 
 use clap::{Arg, ArgAction};
-use rod_files::LargestStress;
+use rod_files::{LargestStress, Speed};
 use std::path::PathBuf;
 use vibrissa::hw::recording::Role;
 use vibrissa::plan::Rectangle;
@@ -20,6 +20,12 @@ pub fn seed(text: &str) -> Result<u64, String> {
 /// A number that counts from 1; whether there are so many shows later.
 pub fn number(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "expected a whole number, at least 1".to_owned())
+}
+
+/// The speed of a clamp that moves, m/s: a number, or one with a unit.
+pub fn speed(text: &str) -> Result<f64, String> {
+    let speed = text.parse::<Speed>()?.where_it_moves().map_err(|error| error.to_string())?;
+    if speed > 0.0 && speed.is_finite() { Ok(speed) } else { Err("expected a speed greater than 0".into()) }
 }
 
 /// A number beyond 0.
@@ -142,6 +148,13 @@ pub fn meaning(text: &str) -> Result<Meaning, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_speed_is_a_length_per_second() {
+        assert_eq!((speed("10 mm/s"), speed("0.01")), (Ok(0.01), Ok(0.01)));
+        assert!(speed("10 deg/s").is_err_and(|why| why.contains("expected a length per second: the clamp moves")));
+        assert!(speed("0 mm/s").is_err() && speed("nan").is_err());
+    }
 
     #[test]
     fn values_are_a_list_or_evenly_spread() {

@@ -161,6 +161,10 @@ fn a_clamp_that_turns_does_so_in_radians() {
         assert!((row[3] - (120_f64.to_radians() - 0.01 * k as f64)).abs() < 1e-12);
         assert_eq!(row[0], k as f64 / 10.0);
     }
+    let against = ["reconstruct", "r.csv", "--rod", "scene.toml", "--truth", "scene.toml", "--local"];
+    let output = vibrissa(directory.path(), &against);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains("were found within 1 mrad of the clamp's way") && said.contains("error mrad"), "{said}");
     let simulated = |speed: &str| simulate(directory.path(), &["--rate", "10", "--speed", speed, "--file", "r.csv"]);
     assert_eq!(simulated("6 deg/s").status.code(), Some(0));
     assert_eq!(rows(&directory.path().join("r.csv")).len(), 101);

@@ -14,7 +14,7 @@ const here = name => new URL(name, import.meta.url);
 const path = process.env.PLAYGROUND_WASM ?? here('target/wasm32-unknown-unknown/release/playground.wasm');
 const module = new WebAssembly.Module(readFileSync(path));
 for (const script of ['rod.js', 'scene.js', 'recording.js']) await import(here(`page/${script}`));
-const { Rod, Recording, OBJECTS, WIRE, preset, toText, fromText, toHash, fromHash, toToml, fromToml, isSameEquilibrium } = globalThis.playground;
+const { Rod, Recording, OBJECTS, WIRE, preset, toText, fromText, toHash, fromHash, toToml, fromToml, isSameEquilibrium, isContact } = globalThis.playground;
 const scene = (object, rod = {}) => ({ ...preset(object), rod: { ...WIRE, ...rod } });
 
 /// The scan of the paper with so many states in a mm: all states, the events, and the recording of it.
@@ -68,8 +68,20 @@ test('single contacts come back from the reactions', () => {
     for (const { recovered, contacts: [contact], pose } of single) {
         assert.equal(recovered.kind, contact.kind, `at ${pose}`);
         assert.ok(Math.hypot(recovered.x - contact.x, recovered.y - contact.y) < 1e-9);
+        assert.ok(isContact(recovered, [contact]) && !isContact(recovered, [contact, contact]));
     }
     assert.equal(states[0].recovered, null);
+});
+
+// It was drawn as a contact, 30 mm from the object.
+test('with friction the point may be none, and is not drawn as a contact', () => {
+    const rod = new Rod(module), rubs = scene('parabolas', { taper: 0.3, curvature: 6, friction: 0.4 });
+    rubs.shapes[1].vertex = [0.052, -0.01];
+    const states = [rod.build(rubs, rubs.home).state];
+    for (let x = 79; x > 0; x--) states.push(rod.moveTo([x / 1e3, -0.04, Math.PI / 2]));
+    const off = ({ recovered, contacts: [contact] }) => Math.hypot(recovered.x - contact.x, recovered.y - contact.y);
+    const wrong = states.filter(state => state.contacts.length === 1 && off(state) > 0.02);
+    assert.ok(wrong.length > 5 && wrong.every(({ recovered, contacts }) => !isContact(recovered, contacts)), `${wrong.length}`);
 });
 
 test('each object lets a rod of each kind pass, with friction and without', () => {

@@ -57,8 +57,8 @@ pub use reconstructed::{
 pub use recording::{Place, ReadOptions, Recording, RecordingError, Row, RowFault, RowProblem};
 pub use scan::Scan;
 pub use scene::{
-    CalibratedRod, ElasticaScene, FilmedRod, Leg, LegPath, ScanList, Scene, SceneFriction, read_calibrated_rod,
-    read_filmed_rod, read_scans, read_uniform_rod, unit_of,
+    CalibratedRod, ElasticaScene, FilmedRod, Leg, LegPath, RodOnPath, ScanList, Scene, SceneFriction,
+    read_calibrated_rod, read_filmed_rod, read_scans, read_uniform_rod, unit_of,
 };
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
 pub use simulation::{Simulated, Simulation, SimulationError, Speed, Tick, Ticks};

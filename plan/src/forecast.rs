@@ -3,8 +3,9 @@
 use crate::choice::{Choice, exhaustive, greedy};
 use crate::hypothesis::Hypothesis;
 use crate::precision::{Measurement, PlaceSigma, predicted};
+use crate::scanned::{self, Computation};
 use crate::support::along;
-use crate::{IntervalSet, PlanError, ReachGrid, Scanned, StraightScan, scanned};
+use crate::{IntervalSet, PlanError, ReachGrid, Scanned, StraightScan};
 use rayon::prelude::*;
 use rod_contact::{Path, StopReason};
 use rod_core::{PhysicalRod, Pose};
@@ -16,6 +17,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Distance (rod lengths) of the states of a sweep past a drawn object. The ends of what is touched do not depend on it; between two states the stress may be somewhat
 /// larger than at both. Smaller: slower.
 const COARSE: f64 = 0.03;
+
+/// Steps of a sweep past a drawn object after which it is given up. Of 1,088 sweeps past objects that were drawn from a scan of O1 none took 2,500. Larger: a rod that is
+/// caught and jumps to and fro takes longer; with the limit of the sweep, 2 million steps, minutes.
+const MOST_STEPS: u64 = 10_000;
 
 /// How candidates are judged.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,12 +112,6 @@ impl Forecast {
         };
         Some([median(|point| point.before)?, median(|point| point.after)?])
     }
-
-    /// Length of the contour, touched before, whose standard deviation falls below `sigma` (m) by this scan, m.
-    pub fn improved(&self, sigma: f64) -> f64 {
-        let improves = |point: &&KnownPoint| point.before > sigma && point.after <= sigma;
-        self.known.iter().filter(improves).map(|point| point.length).sum()
-    }
 }
 
 /// What all candidates are expected to bring.
@@ -138,6 +137,17 @@ impl Plan {
             (0..self.hypotheses[hypothesis].objects.len()).map(of_object).sum::<f64>()
         };
         (0..self.hypotheses.len()).map(of_hypothesis).sum::<f64>() / self.hypotheses.len().max(1) as f64
+    }
+
+    /// Length (m) of the contour, touched before, whose standard deviation falls below `sigma` (m) by one of some candidates.
+    pub(crate) fn improved(&self, taken: &[usize], sigma: f64) -> f64 {
+        let points = taken.first().map_or(0, |first| self.forecasts[*first].known.len());
+        let improves = |point: &KnownPoint| point.before > sigma && point.after <= sigma;
+        let length = |k: usize| {
+            let mut points = taken.iter().map(|candidate| &self.forecasts[*candidate].known[k]);
+            points.find(|point| improves(point)).map_or(0.0, |point| point.length)
+        };
+        (0..points).map(length).sum()
     }
 
     /// Up to `count` candidates that together newly touch most, taken one after the other: at least 0.632 of the most that so many can
@@ -249,22 +259,22 @@ pub fn plan<R: PhysicalRod + Sync>(
         return Err(PlanError::Empty { what: "candidates" });
     }
     let hypotheses = hypotheses(known, rod.units().length, settings, &|_| true)?;
-    plan_of(rod, known, hypotheses, candidates, settings, goes_on)
+    plan_of(rod, known, hypotheses, candidates, (settings, None), goes_on)
 }
 
-/// [`plan`] with these objects.
+/// [`plan`] with these objects. A candidate that is blocked or bends the rod beyond `most_stress` (Pa) in a hypothesis is judged no further: its gain is not known.
 pub(crate) fn plan_of<R: PhysicalRod + Sync>(
     rod: &R,
     known: &[FittedObject],
     hypotheses: Vec<Hypothesis>,
     candidates: &[Candidate],
-    settings: &PlanSettings,
+    (settings, most_stress): (&PlanSettings, Option<f64>),
     goes_on: &(impl Fn(usize) -> bool + Sync),
 ) -> Result<Plan, PlanError> {
     let places = hypotheses.first().map_or_else(Vec::new, |one| known_places(known, one));
     let done = AtomicUsize::new(0);
     let one = |candidate: &Candidate| {
-        let found = forecast(rod, &places, &hypotheses, candidate.clone(), settings);
+        let found = forecast(rod, &places, &hypotheses, candidate.clone(), (settings, most_stress));
         (found, goes_on(done.fetch_add(1, Ordering::Relaxed) + 1))
     };
     let found = candidates.par_iter().map(one).take_any_while(|(_, goes_on)| *goes_on).map(|(found, _)| found);
@@ -277,7 +287,7 @@ fn forecast<R: PhysicalRod>(
     known_places: &[KnownPlace],
     hypotheses: &[Hypothesis],
     candidate: Candidate,
-    settings: &PlanSettings,
+    (settings, most_stress): (&PlanSettings, Option<f64>),
 ) -> Result<(Forecast, Vec<Vec<IntervalSet>>), PlanError> {
     let path = candidate.path.clone();
     let (mut new, mut gains, mut touched) = (Vec::new(), Vec::new(), 0.0);
@@ -299,7 +309,8 @@ fn forecast<R: PhysicalRod>(
         let Hypothesis { objects, outlines, touched: before } = hypothesis;
         // only of the most plausible object are the states themselves of use
         let step = if number == 0 { scanned::STEP } else { COARSE } * rod.units().length;
-        let (found, states) = Scanned::of(rod, objects, outlines, &path, step)?;
+        let computation = Computation { step, most_steps: Some(MOST_STEPS), most_stress };
+        let (found, states) = Scanned::of(rod, objects, outlines, &path, computation)?;
         let all: Vec<IntervalSet> = (0..objects.len()).map(|object| found.touched.all(object)).collect();
         let fresh: Vec<IntervalSet> = all.iter().zip(before).map(|(all, before)| all.without(before)).collect();
         gains.push(fresh.iter().map(IntervalSet::length).sum::<f64>());
@@ -311,8 +322,12 @@ fn forecast<R: PhysicalRod>(
             (Some(one), Some(other)) => Some(one.max(other)),
             (one, other) => one.or(other),
         };
+        let is_beyond = found.is_beyond(most_stress);
         let is_blocked = found.stop.is_some_and(|stop| stop.reason == StopReason::ClampInside);
         forecast.blocked += f64::from(u8::from(is_blocked)) / count;
+        if is_beyond || (most_stress.is_some() && is_blocked) {
+            break;
+        }
         if let (0, Some(measurement)) = (number, &settings.measurement) {
             forecast.sigmas = predicted(rod, objects, outlines, &states, path.length(), measurement);
             forecast.known = known_points(known_places, &forecast.sigmas, measurement);

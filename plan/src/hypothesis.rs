@@ -4,7 +4,7 @@
 //! curvature, one of those along it, each as likely, for a rod length at most. Ends that turn towards each other there meet, unless they are far apart. Between touched points the hollows that the rod bridged are deeper or
 //! shallower by a share of the room of the points, the same all along, uniform from -1 to 1. The touched points stay where they are.
 
-use crate::joined::joined;
+use crate::joined::{Joined, joined, touched_runs};
 use crate::{IntervalSet, Outline, support};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -27,8 +27,8 @@ const MEET: f64 = 0.5;
 /// Directions that are tried, up to a right angle, where a contour cannot go straight on.
 const TURNS: i32 = 6;
 
-/// Largest distance (rod lengths) of touched ends of a closed contour between which it counts as touched: that of neighbouring points of a fit.
-const CLOSED: f64 = 0.06;
+/// Largest distance (rod lengths) of the touched ends of contours between which they count as touched: that of neighbouring points of a fit.
+const NEIGHBOURS: f64 = 0.06;
 
 /// How often a hypothesis is drawn anew whose contour crosses itself. Then its ends go on straight.
 const DRAWS: usize = 20;
@@ -53,9 +53,19 @@ impl Hypothesis {
         (count, seed): (usize, u64),
         may_be: &dyn Fn([f64; 2]) -> bool,
     ) -> Vec<Self> {
-        let contours = joined(contours, length);
+        let middle =
+            |contours: &[Joined]| Self::of(contours, length, &mut |curvatures| median(curvatures), &mut || 0.0, may_be);
+        let whole = joined(contours, length);
+        let (contours, middle) = match middle(&whole) {
+            Some(found) => (whole, Some(found)),
+            None => {
+                // bounded stretches of two scans overlap, so that the contour would cross itself
+                let touched = joined(&contours.iter().flat_map(touched_runs).collect::<Vec<_>>(), length);
+                let found = middle(&touched);
+                (touched, found)
+            }
+        };
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let middle = Self::of(&contours, length, &mut |curvatures| median(curvatures), &mut || 0.0, may_be);
         let mut all: Vec<Self> = middle.into_iter().collect();
         for _ in 0..count {
             for _ in 0..DRAWS {
@@ -76,14 +86,14 @@ impl Hypothesis {
     }
 
     fn of(
-        contours: &[FittedObject],
+        contours: &[Joined],
         length: f64,
         curvature: &mut dyn FnMut(&[f64]) -> f64,
         depth: &mut dyn FnMut() -> f64,
         may_be: &dyn Fn([f64; 2]) -> bool,
     ) -> Option<Self> {
         let (mut objects, mut touched_points) = (Vec::new(), Vec::new());
-        for contour in contours {
+        for Joined { contour, .. } in contours {
             let inner = deepened(contour, depth);
             let (object, points) = went_on(&inner, length, curvature, may_be)?;
             objects.push(object);
@@ -91,21 +101,20 @@ impl Hypothesis {
         }
         let outlines: Vec<Outline> =
             objects.iter().map(|object| support::outline(object, &[])).collect::<Option<_>>()?;
-        let touched = objects.iter().zip(&outlines).zip(&touched_points).map(|((object, outline), points)| {
+        let shapes = objects.iter().zip(&outlines).zip(&touched_points);
+        let touched = shapes.zip(contours).map(|(((object, outline), points), Joined { starts, .. })| {
             let mut touched = IntervalSet::default();
-            for pair in points.windows(2) {
-                let [from, to] = [pair[0], pair[1]].map(|point| point.map(|[x, y]| outline.nearest(object, x, y)));
-                if let (Some(Some(from)), Some(Some(to))) = (from, to) {
+            // the last pair closes the contour
+            for before in 0..points.len() {
+                let after = (before + 1) % points.len();
+                let (Some(from), Some(to)) = (points[before], points[after]) else { continue };
+                let is_near = (to[0] - from[0]).hypot(to[1] - from[1]) < NEIGHBOURS * length;
+                let is_measured =
+                    if after == 0 { is_near && outline.is_closed() } else { is_near || !starts.contains(&after) };
+                let place = |[x, y]: [f64; 2]| outline.nearest(object, x, y);
+                if let (true, Some(from), Some(to)) = (is_measured, place(from), place(to)) {
                     insert(&mut touched, outline, from, to);
                 }
-            }
-            if let (Some(Some(last)), Some(Some(first))) = (points.last(), points.first())
-                && outline.is_closed()
-                && (first[0] - last[0]).hypot(first[1] - last[1]) < CLOSED * length
-                && let (Some(from), Some(to)) =
-                    (outline.nearest(object, last[0], last[1]), outline.nearest(object, first[0], first[1]))
-            {
-                insert(&mut touched, outline, from, to);
             }
             touched
         });
@@ -267,6 +276,31 @@ mod tests {
             assert!((frame.x.hypot(frame.y) - 0.2).abs() < 5e-3, "{frame:?}");
         }
         assert!(outline.length() > 0.2 * 5.0);
+    }
+
+    #[test]
+    fn what_lies_between_two_contours_is_not_touched() {
+        // 0.6 rad of a circle on each side of a gap of 0.4 rad
+        for one in Hypothesis::all(&[arc(-2.3, -1.7, 12), arc(-1.3, -0.7, 12)], 1.0, (2, 1), &|_| true) {
+            assert_eq!(one.objects.len(), 1);
+            assert!((one.touched[0].length() - 0.2 * 1.2).abs() < 1e-3, "{:?}", one.touched);
+        }
+    }
+
+    #[test]
+    fn bounded_points_that_contradict_each_other_do_not_hinder_what_was_touched() {
+        // beyond the start of the arc and once in the middle the bounds of two scans overlap
+        let mut contour = arc(-2.3, 4.4, 80);
+        contour.known[..12].fill(Knowledge::Bounded { room: 0.01 });
+        contour.known[36..44].fill(Knowledge::Bounded { room: 0.01 });
+        contour.points.swap(38, 41);
+        let all = Hypothesis::all(&[contour], 1.0, (2, 1), &|_| true);
+        assert_eq!(all.len(), 3);
+        let (outline, touched) = (&all[0].outlines[0], &all[0].touched[0]);
+        // of the 79 steps, 12 before the touched points, and 9 in the middle
+        let expected = 0.2 * 58.0 * 6.7 / 79.0;
+        assert!(outline.is_closed() && (outline.length() - 0.4 * PI).abs() < 0.01, "{}", outline.length());
+        assert!((touched.length() - expected).abs() < 1e-3, "{touched:?} {expected}");
     }
 
     #[test]

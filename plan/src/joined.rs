@@ -2,16 +2,26 @@
 
 use rod_reconstruct::{FittedObject, Knowledge};
 
+/// A contour that is made of several.
+#[derive(Clone, Debug)]
+pub(crate) struct Joined {
+    pub contour: FittedObject,
+    /// The points with which its parts begin, but for the first: between each and the point before it nothing was measured.
+    pub starts: Vec<usize>,
+}
+
 /// Contours joined where the end of one and the start of another are nearer than `most` (m): between two places that were touched the border of
 /// one object is taken to go on. The nearest are joined first.
-pub(crate) fn joined(contours: &[FittedObject], most: f64) -> Vec<FittedObject> {
-    let mut contours: Vec<FittedObject> =
-        contours.iter().map(without_unknown_ends).filter(|one| !one.points.is_empty()).collect();
+pub(crate) fn joined(contours: &[FittedObject], most: f64) -> Vec<Joined> {
+    let known = contours.iter().map(without_unknown_ends).filter(|one| !one.points.is_empty());
+    let mut contours: Vec<Joined> = known.map(|contour| Joined { contour, starts: Vec::new() }).collect();
     loop {
         let mut best: Option<(f64, usize, usize)> = None;
         for (one, before) in contours.iter().enumerate() {
             for (other, after) in contours.iter().enumerate().filter(|(other, _)| *other != one) {
-                let (Some(end), Some(start)) = (before.points.last(), after.points.first()) else { continue };
+                let (Some(end), Some(start)) = (before.contour.points.last(), after.contour.points.first()) else {
+                    continue;
+                };
                 let apart = (start[0] - end[0]).hypot(start[1] - end[1]);
                 if apart < best.map_or(most, |best| best.0) {
                     best = Some((apart, one, other));
@@ -19,7 +29,7 @@ pub(crate) fn joined(contours: &[FittedObject], most: f64) -> Vec<FittedObject> 
             }
         }
         let Some((_, one, other)) = best else {
-            contours.retain(|one| one.points.len() > 1);
+            contours.retain(|one| one.contour.points.len() > 1);
             return contours;
         };
         let after = contours[other].clone();
@@ -41,8 +51,10 @@ fn is_sharp(before: &FittedObject, after: &FittedObject) -> bool {
     is_turned_before || after.points.first_chunk::<2>().is_some_and(|[from, to]| turns(chord(*from, *to)))
 }
 
-fn append(contour: &mut FittedObject, after: FittedObject) {
+fn append(Joined { contour, starts }: &mut Joined, Joined { contour: after, starts: its_starts }: Joined) {
     let first = contour.points.len();
+    starts.push(first);
+    starts.extend(its_starts.iter().map(|start| start + first));
     if is_sharp(contour, &after) {
         // a spline would overshoot
         contour.vertices.extend([first - 1].iter().filter(|vertex| **vertex > 0));
@@ -56,10 +68,21 @@ fn append(contour: &mut FittedObject, after: FittedObject) {
 /// From the first to the last point of which anything is known.
 fn without_unknown_ends(contour: &FittedObject) -> FittedObject {
     let is_known = |known: &Knowledge| *known != Knowledge::Unknown;
-    let (first, last) = match (contour.known.iter().position(is_known), contour.known.iter().rposition(is_known)) {
-        (Some(first), Some(last)) => (first, last),
-        _ => return FittedObject { points: Vec::new(), vertices: Vec::new(), known: Vec::new() },
-    };
+    match (contour.known.iter().position(is_known), contour.known.iter().rposition(is_known)) {
+        (Some(first), Some(last)) => part(contour, first, last),
+        _ => FittedObject { points: Vec::new(), vertices: Vec::new(), known: Vec::new() },
+    }
+}
+
+/// The runs of its points that were touched.
+pub(crate) fn touched_runs(contour: &FittedObject) -> Vec<FittedObject> {
+    let is_touched = |k: &usize| contour.known[*k].sigma().is_some();
+    let touched: Vec<usize> = (0..contour.points.len()).filter(is_touched).collect();
+    touched.chunk_by(|one, next| one + 1 == *next).map(|run| part(contour, run[0], run[run.len() - 1])).collect()
+}
+
+/// From one of its points to another.
+fn part(contour: &FittedObject, first: usize, last: usize) -> FittedObject {
     let vertices =
         contour.vertices.iter().filter(|vertex| (first + 1..last).contains(vertex)).map(|vertex| vertex - first);
     FittedObject {
@@ -83,9 +106,10 @@ mod tests {
         let [left, right] = [line(0.0, Knowledge::Unknown), line(2.5, Knowledge::Bounded { room: 0.2 })];
         let one = joined(&[right.clone(), left.clone()], 1.0);
         assert_eq!(one.len(), 1);
-        assert_eq!(one[0].points.len(), 5);
-        assert_eq!((one[0].points[0], one[0].points[2]), ([1.0, 0.0], [2.5, 0.0]));
-        assert_eq!(one[0].vertices, [3]);
+        let Joined { contour, starts } = &one[0];
+        assert_eq!((contour.points.len(), starts.as_slice()), (5, [2].as_slice()));
+        assert_eq!((contour.points[0], contour.points[2]), ([1.0, 0.0], [2.5, 0.0]));
+        assert_eq!(contour.vertices, [3]);
         assert_eq!(joined(&[left, right], 0.4).len(), 2);
     }
 }

@@ -1,7 +1,7 @@
 //! What of an object the scans of a grid of distances and angles touch.
 
 use crate::scan::{Pass, StraightScan};
-use crate::scanned;
+use crate::scanned::{self, Computation};
 use crate::support::{HalfPlane, along, nearest, outline};
 use crate::{Outline, PlanError, Scanned, Touched};
 use rayon::prelude::*;
@@ -148,5 +148,6 @@ fn scan_reach<R: PhysicalRod>(
     let within = places.filter(|(_, frame)| along(scan.angle, *frame) <= limit).map(|(_, frame)| along(left, frame));
     let across = within.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| (ends.0.min(place), ends.1.max(place)));
     let path: Arc<dyn Path> = Arc::new(scan.path(near, across, rod.units().length)?);
-    Ok(ScanReach { scan, found: Scanned::of(rod, objects, outlines, &path, step)?.0 })
+    let computation = Computation { step, most_steps: None, most_stress: None };
+    Ok(ScanReach { scan, found: Scanned::of(rod, objects, outlines, &path, computation)?.0 })
 }

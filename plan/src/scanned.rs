@@ -27,17 +27,32 @@ pub struct Scanned {
     pub stop: Option<Stop>,
 }
 
+/// How a scan is computed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Computation {
+    /// Distance of the states, m.
+    pub step: f64,
+    /// Steps of the sweep after which it is given up; none for those that a sweep may have.
+    pub most_steps: Option<u64>,
+    /// Stress (Pa) beyond which the rest of the scan is of no interest.
+    pub most_stress: Option<f64>,
+}
+
 impl Scanned {
-    /// A scan along a path, with a state at each `step` (m), and its states at these distances.
+    /// A scan along a path, and its states at equal distances.
     pub(crate) fn of<R: PhysicalRod>(
         rod: &R,
         objects: &[Composite],
         outlines: &[Outline],
         path: &Arc<dyn Path>,
-        step: f64,
+        Computation { step, most_steps, most_stress }: Computation,
     ) -> Result<(Self, Vec<State>), PlanError> {
         let (mut found, mut trail, mut states) = (Self::default(), Trail::default(), Vec::new());
-        for item in Sweep::new(rod, objects, Chain::new(vec![path.clone()])?, step)? {
+        let mut sweep = Sweep::new(rod, objects, Chain::new(vec![path.clone()])?, step)?;
+        if let Some(most) = most_steps {
+            sweep = sweep.with_most_steps(most);
+        }
+        for item in sweep {
             match item {
                 Ok(Item::State(state)) => {
                     found.load(&state);
@@ -50,9 +65,17 @@ impl Scanned {
                 }
                 Err(stop) => found.stop = Some(stop),
             }
+            if found.is_beyond(most_stress) {
+                break;
+            }
         }
         found.touched = Touched::of(&trail, rod, objects, outlines);
         Ok((found, states))
+    }
+
+    /// Whether the rod is bent further than by a stress (Pa).
+    pub(crate) fn is_beyond(&self, stress: Option<f64>) -> bool {
+        self.largest_stress.zip(stress).is_some_and(|(largest, most)| largest > most)
     }
 
     fn pass(&mut self, event: &Event) {

@@ -1,7 +1,7 @@
 //! The parts of objects that the contacts of a sweep go over.
 
 use crate::{IntervalSet, Outline};
-use rod_contact::{ClampPath, Contact, Event, EventKind, State, Sweep};
+use rod_contact::{ClampPath, Contact, Event, EventKind, Item, State, Sweep};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose};
 
@@ -132,11 +132,15 @@ fn turning<R: PhysicalRod>(
     for _ in 0..ROUNDS {
         let path = ClampPath::new(start.pose, end).ok()?;
         let step = path.length() / STATES as f64;
-        let outcome = Sweep::from_state(rod, objects, &start, path, step).ok()?.run();
-        let states = outcome.states;
-        if outcome.stop.is_some() || !outcome.events.is_empty() || states.len() < 3 {
+        let sweep = Sweep::from_state(rod, objects, &start, path, step).ok()?;
+        let state = |item| match item {
+            Ok(Item::State(state)) => Some(state),
+            _ => None,
+        };
+        // what comes after a transition is of no use
+        let Some(states) = sweep.map(state).collect::<Option<Vec<_>>>().filter(|states| states.len() > 2) else {
             break;
-        }
+        };
         let places: Vec<f64> = states.iter().map(&place).collect::<Option<_>>()?;
         let (best, value) =
             places.iter().enumerate().max_by(|one, other| (sign * one.1).total_cmp(&(sign * other.1)))?;

@@ -6,7 +6,9 @@ use rand_chacha::ChaCha8Rng;
 use rod_contact::{ClampPath, Sweep};
 use rod_contours::{Composite, Spline, SplineEnd};
 use rod_core::{Pose, Reactions, Rod, Sample};
-use rod_plan::{Abort, Explorer, ExplorerSettings, Finish, IntervalSet, Purpose, Reach, ReachGrid, Rectangle, reach};
+use rod_plan::{
+    Abort, Explorer, ExplorerSettings, Finish, IntervalSet, Purpose, Reach, ReachGrid, Rectangle, ScanReach, reach,
+};
 use rod_reconstruct::{Budget, FittedObject, NoiseModel, Settings};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -131,12 +133,14 @@ fn measure(object: &Composite, path: ClampPath, abort: Abort, spacing: f64, seed
 struct Explored {
     finish: Option<Finish>,
     scans: usize,
+    /// Way of the clamp along all scans, m; as of a raster, without the ways from one to the next.
+    way: f64,
     approaches: usize,
     aborted: usize,
     largest_stress: f64,
     share: Share,
-    /// Scans after which the precise share was 0.95.
-    enough: Option<usize>,
+    /// Scans after which the precise share was 0.95, and their way.
+    enough: Option<(usize, f64)>,
     /// Predicted over found standard deviation, of the scans along the contour.
     ratios: Vec<f64>,
 }
@@ -149,6 +153,7 @@ fn explore(object: &Composite, settings: ExplorerSettings, seed: u64, truth: &Tr
     let mut found = Explored {
         finish: None,
         scans: 0,
+        way: 0.0,
         approaches: 0,
         aborted: 0,
         largest_stress: 0.0,
@@ -163,9 +168,10 @@ fn explore(object: &Composite, settings: ExplorerSettings, seed: u64, truth: &Tr
             measure(object, proposal.path, proposal.abort, spacing, 100 * seed + found.scans as u64);
         explorer.update(&samples).unwrap();
         found.scans += 1;
+        found.way += proposal.path.length();
         found.share = Share::of(explorer.known(), sigma, object, truth);
         if found.share.precise >= ENOUGH {
-            found.enough.get_or_insert(found.scans);
+            found.enough.get_or_insert((found.scans, found.way));
         }
         found.largest_stress = found.largest_stress.max(stress);
         found.aborted += usize::from(is_aborted);
@@ -257,6 +263,23 @@ struct Truth {
     reachable: IntervalSet,
 }
 
+impl Truth {
+    /// The largest share of what can be reached that one pass of the grid touches, and two together.
+    fn most_of_two(&self) -> [f64; 2] {
+        let within = |scan: &&ScanReach| scan.found.largest_stress.unwrap() <= YIELD;
+        let all: Vec<IntervalSet> =
+            self.reach.scans.iter().filter(within).map(|scan| scan.found.touched.all(0)).collect();
+        let share = |one: &IntervalSet, other: &IntervalSet| {
+            let mut both = one.clone();
+            both.extend(other);
+            both.length() / self.reachable.length()
+        };
+        let one = all.iter().map(|one| share(one, one)).fold(0.0, f64::max);
+        let two = all.iter().enumerate().flat_map(|(k, one)| all[k..].iter().map(move |other| (one, other)));
+        [one, two.map(|(one, other)| share(one, other)).fold(0.0, f64::max)]
+    }
+}
+
 /// All scans of a grid.
 fn truth(object: &Composite, angles: usize, distances: &[f64]) -> Truth {
     let grid = ReachGrid {
@@ -283,16 +306,22 @@ fn a_free_form_object_is_explored() {
 }
 
 /// How many scans of an equally spaced raster make the precise share 0.95: passes to the left at equal angles all around, the clamp on lines at one distance from the
-/// box. Rasters of 3 to 12 scans are tried, the smallest first; none where 12 are too few, or the time is over.
-fn raster(object: &Composite, settings: &ExplorerSettings, seed: u64, truth: &Truth, most: Duration) -> Option<usize> {
+/// box. Rasters of 2 to 12 scans are tried, the smallest first; none where 12 are too few, or the time is over. With the way of the clamp, m.
+fn raster(
+    object: &Composite,
+    settings: &ExplorerSettings,
+    seed: u64,
+    truth: &Truth,
+    most: Duration,
+) -> Option<(usize, f64)> {
     let (begin, corners) = (Instant::now(), settings.object.corners());
-    let mut fits: HashMap<usize, Vec<FittedObject>> = HashMap::new();
-    for count in [3, 4, 5, 6, 8, 10, 12] {
-        let mut explorer = Explorer::new(rod(), settings.clone()).unwrap();
+    let mut fits: HashMap<usize, (Vec<FittedObject>, f64)> = HashMap::new();
+    for count in [2, 3, 4, 5, 6, 8, 10, 12] {
+        let (mut explorer, mut way) = (Explorer::new(rod(), settings.clone()).unwrap(), 0.0);
         for k in 0..count {
             // the same angle in several rasters is one scan
             let place = (FULL / count) * k;
-            let fit = fits.entry(place).or_insert_with(|| {
+            let (fit, own_way) = fits.entry(place).or_insert_with(|| {
                 let angle = TAU * (0.25 + place as f64 / FULL as f64);
                 let (sin, cos) = angle.sin_cos();
                 let extent = |x: f64, y: f64| {
@@ -310,15 +339,16 @@ fn raster(object: &Composite, settings: &ExplorerSettings, seed: u64, truth: &Tr
                 let (samples, ..) = measure(object, path, abort, settings.spacing, 100 * seed + 50 + place as u64);
                 let mut alone = Explorer::new(rod(), settings.clone()).unwrap();
                 alone.add(&samples).unwrap();
-                alone.known().to_vec()
+                (alone.known().to_vec(), path.length())
             });
+            way += *own_way;
             explorer.add_known(&[], fit.clone());
             if begin.elapsed() > most {
                 return None;
             }
         }
         if Share::of(explorer.known(), settings.sigma, object, truth).precise >= ENOUGH {
-            return Some(count);
+            return Some((count, way));
         }
     }
     None
@@ -341,10 +371,11 @@ fn shares_of_objects() {
             let seconds = begin.elapsed().as_secs_f64();
             let raster = std::env::var("RASTER").is_ok().then(|| raster(&object, &settings, seed, &truth, most));
             let reachable = truth.reachable.length() / truth.reach.length();
+            let [one, two] = truth.most_of_two();
             let Explored { finish, scans, share, enough, .. } = &found;
             let Share { touched, precise, error } = share;
             eprintln!(
-                "{kind:?} {seed}: {finish:?}, {scans} scans, touched {touched:.3}, precise {precise:.3} of {reachable:.3}, error {error:.5?} L, {seconds:.1} s, \
+                "{kind:?} {seed}: {finish:?}, {scans} scans, touched {touched:.3}, precise {precise:.3} of {reachable:.3}, best pass {one:.3}, best two {two:.3}, error {error:.5?} L, {seconds:.1} s, \
                  enough {enough:?}, raster {raster:?}, {found:.3?}"
             );
         }

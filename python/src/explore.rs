@@ -44,7 +44,7 @@ impl PyProposal {
             Purpose::Approach => ("approach", f64::NAN, None),
             Purpose::Contour { forecast, value } => ("contour", value, forecast.largest_stress),
         };
-        let leg = Leg::straight(&path, path.at(path.length()));
+        let leg = Leg::Straight { path, to: path.at(path.length()) };
         Ok(Self {
             path: Py::new(py, (PyClampPath, PyPath::new(path, Some(vec![leg]), None)))?,
             purpose,

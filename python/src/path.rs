@@ -7,6 +7,7 @@ use crate::{errors, running};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
+use rod_files::LegPath;
 use std::sync::Arc;
 use vibrissa::contact::{Chain, ClampArc, ClampSpline, Path, PathPoint};
 use vibrissa::{ClampPath, Pose};
@@ -19,19 +20,22 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyChain>()
 }
 
-/// A leg of a path as scene files have it.
+/// A leg of a path as scene files have it, with the numbers as they were given: those of the path have rounding errors.
 #[derive(Clone, Copy)]
 pub enum Leg {
-    /// First and last pose, and whether the clamp only turns.
-    Straight { from: Pose, to: Pose, turns_only: bool },
-    /// Pivot (m), angle (rad), and whether the clamp only turns.
-    Pivot { pivot: [f64; 2], turn: f64, turns_only: bool },
+    /// With its last pose.
+    Straight { path: ClampPath, to: Pose },
+    /// With the pivot (m) and the angle (rad).
+    Pivot { path: ClampArc, pivot: [f64; 2], turn: f64 },
 }
 
 impl Leg {
-    /// A straight leg to a pose as it was given.
-    pub fn straight(path: &ClampPath, to: Pose) -> Self {
-        Self::Straight { from: path.at(0.0), to, turns_only: path.turns_only() }
+    /// What the clamp goes along.
+    pub fn path(&self) -> LegPath {
+        match *self {
+            Self::Straight { path, .. } => LegPath::Straight(path),
+            Self::Pivot { path, .. } => LegPath::Pivot(path),
+        }
     }
 }
 
@@ -159,7 +163,7 @@ impl PyPath {
         }
         // of a scene: start and end of a straight leg, or pivot and angle
         let leg = |leg: &Leg| match *leg {
-            Leg::Straight { from, to, .. } => (tuple(from), tuple(to)).into_pyobject(py),
+            Leg::Straight { path, to } => (tuple(path.at(0.0)), tuple(to)).into_pyobject(py),
             Leg::Pivot { pivot, turn, .. } => (pivot, turn).into_pyobject(py),
         };
         let legs: Vec<_> = self.legs.iter().flatten().map(leg).collect::<PyResult<_>>()?;
@@ -188,7 +192,7 @@ impl PyClampPath {
     #[new]
     fn new(py: Python<'_>, start: PyPose, end: PyPose) -> PyResult<(Self, PyPath)> {
         let path = ClampPath::new(start.0, end.0).map_err(errors::value)?;
-        let legs = vec![Leg::straight(&path, end.0)];
+        let legs = vec![Leg::Straight { path, to: end.0 }];
         let (start, end) = (tuple(start.0), tuple(end.0));
         let constructor = constructor!(py, "ClampPath", start, end);
         Ok((Self, PyPath::new(path, Some(legs), Some(constructor))))
@@ -233,7 +237,7 @@ impl PyClampArc {
             None => ClampArc::about(start.0, center, turn),
         };
         let path = path.map_err(errors::value)?;
-        let leg = Leg::Pivot { pivot: center, turn, turns_only: path.turns_only() };
+        let leg = Leg::Pivot { path, pivot: center, turn };
         let start = tuple(start.0);
         let constructor = constructor!(py, "ClampArc", start, center, turn, phi_end);
         Ok((Self, PyPath::new(path, phi_end.is_none().then(|| vec![leg]), Some(constructor))))
@@ -315,7 +319,7 @@ impl PyChain {
         let path = Chain::polyline(&poses).map_err(errors::value)?;
         let given: Vec<_> = poses.iter().copied().map(tuple).collect();
         let constructor = Constructor::method(&py.get_type::<Self>(), "polyline", (given,))?;
-        let leg = |pair: &[Pose]| ClampPath::new(pair[0], pair[1]).map(|path| Leg::straight(&path, pair[1]));
+        let leg = |pair: &[Pose]| ClampPath::new(pair[0], pair[1]).map(|path| Leg::Straight { path, to: pair[1] });
         let legs = poses.windows(2).map(leg).collect::<Result<_, _>>().map_err(errors::value)?;
         Py::new(py, (Self, PyPath::new(path, Some(legs), Some(constructor))))
     }

@@ -341,7 +341,7 @@ fn recording(samples: Samples) -> Recording {
 /// Parameters
 /// ----------
 /// rod : Rod
-///     The rod, on any clamp. For a rod that is not uniform or not straight at rest samples and rod are taken for exact, as with ``as_is``.
+///     The rod, on any clamp.
 /// samples : Recording or table
 ///     A recording; or a table with the columns ``x0``, ``y0`` (m), ``phi0`` (rad), ``f0x``, ``f0y`` (N), ``m0z`` (N m), perhaps ``t``
 ///     (s) and ``sigma_f0x``, ``sigma_f0y``, ``sigma_m0z``: a structured array (``Scan.states``), a data frame, a mapping; or an array

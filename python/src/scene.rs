@@ -106,11 +106,12 @@ impl PyScene {
 
     fn sweep_table(&self) -> PyResult<Table> {
         let legs = self.path.get().legs.as_deref().unwrap_or_default();
-        let Some((&Leg::Straight { from, to, turns_only: first_turns }, others)) = legs.split_first() else {
+        let Some((&Leg::Straight { path: first, to }, others)) = legs.split_first() else {
             return Err(errors::value(
                 "the path has no form in scene files, expected a straight first leg, then straight legs or legs about a pivot",
             ));
         };
+        let from = first.at(0.0);
         let mut sweep = Table::new();
         let mut put = |name: &str, value| sweep.insert(name.to_owned(), value);
         put("from", point([from.x, from.y]));
@@ -123,14 +124,14 @@ impl PyScene {
             let step = self.steps.get(number).or(self.steps.last()).copied().unwrap_or(f64::NAN);
             if turns_only { ("step_angle", Value::Float(degrees(step))) } else { ("step", Value::Float(step)) }
         };
-        let (name, value) = step(0, first_turns);
+        let (name, value) = step(0, first.turns_only());
         put(name, value);
         let others: Vec<Value> = others
             .iter()
             .enumerate()
             .map(|(number, leg)| {
                 let mut table = leg_table(leg);
-                let (name, value) = step(number + 1, turns_only(leg));
+                let (name, value) = step(number + 1, leg.path().turns_only());
                 table.insert(name.to_owned(), value);
                 Value::Table(table)
             })
@@ -139,12 +140,6 @@ impl PyScene {
             put("leg", Value::Array(others));
         }
         Ok(sweep)
-    }
-}
-
-fn turns_only(leg: &Leg) -> bool {
-    match leg {
-        Leg::Straight { turns_only, .. } | Leg::Pivot { turns_only, .. } => *turns_only,
     }
 }
 
@@ -162,22 +157,22 @@ fn leg_table(leg: &Leg) -> Table {
 /// The path of a scene that has been read, with its legs as they are written.
 fn path_of(py: Python<'_>, first: ClampPath, legs: &[rod_files::Leg], tables: &Table) -> PyResult<Py<PyPath>> {
     let sweep = tables.get("sweep").and_then(Value::as_table).cloned().unwrap_or_default();
-    let straight = |path: &ClampPath, table: &Table| {
+    let straight = |path: ClampPath, table: &Table| {
         let end = path.at(path.length());
         let [x, y] = two(table, "to").unwrap_or([end.x, end.y]);
         let phi = number(table, "angle_to").map_or(end.phi, f64::to_radians);
-        Leg::straight(path, Pose { x, y, phi })
+        Leg::Straight { path, to: Pose { x, y, phi } }
     };
-    let mut written = vec![Some(straight(&first, &sweep))];
+    let mut written = vec![Some(straight(first, &sweep))];
     if legs.is_empty() {
         return Py::new(py, PyPath::new(first, written.into_iter().collect(), None));
     }
     let listed = sweep.get("leg").and_then(Value::as_array).into_iter().flatten();
     let leg = |(leg, table): (&rod_files::Leg, &Table)| match leg.path {
-        LegPath::Straight(path) => Some(straight(&path, table)),
+        LegPath::Straight(path) => Some(straight(path, table)),
         LegPath::Pivot(path) => {
             let (pivot, turn) = (two(table, "pivot")?, number(table, "turn")?.to_radians());
-            Some(Leg::Pivot { pivot, turn, turns_only: path.turns_only() })
+            Some(Leg::Pivot { path, pivot, turn })
         }
     };
     written.extend(legs.iter().zip(listed.filter_map(Value::as_table)).map(leg));

@@ -2,18 +2,18 @@
 
 use crate::array::{structured, whole};
 use crate::composite::contours;
-use crate::friction::{Given, rubbing};
+use crate::friction::Given;
+use crate::path::Leg;
 use crate::running::Watch;
 use crate::samples::SAMPLE;
 use crate::scene::PyScene;
 use crate::{errors, running};
 use pyo3::prelude::*;
-use rod_files::read_noise;
+use rod_files::{RodOnPath, SimulationError, Tick, Ticks, read_noise};
 use std::path::PathBuf;
-use vibrissa::contact::{Item, Stop};
-use vibrissa::reconstruct::{NoiseGenerator, NoiseModel};
-use vibrissa::rod::{AnyRod, Reactions};
-use vibrissa::{ClampPath, Pose, Sample, Sweep};
+use vibrissa::Sample;
+use vibrissa::contact::Stop;
+use vibrissa::reconstruct::NoiseModel;
 
 /// A model of noise from a mapping with the tables of a noise file, or from such a file.
 pub fn model(noise: &Bound<'_, PyAny>) -> PyResult<NoiseModel> {
@@ -26,43 +26,18 @@ pub fn model(noise: &Bound<'_, PyAny>) -> PyResult<NoiseModel> {
     Ok(model)
 }
 
-/// The sweep and the sensor, without the interpreter.
-struct Recorder<'a> {
-    sweep: Sweep<'a, AnyRod>,
-    path: ClampPath,
-    sensor: NoiseGenerator,
-    step: f64,
-    rate: f64,
-}
-
-impl Recorder<'_> {
-    fn run(mut self) -> (Vec<Sample>, Option<Stop>) {
-        let (mut samples, mut next, mut watch) = (Vec::new(), 0, Watch::new());
-        let start = self.path.at(0.0);
-        for item in self.sweep {
-            let state = match item {
-                Ok(Item::State(state)) => state,
-                Ok(Item::Event(_)) => continue,
-                Err(stop) => return (samples, Some(stop)),
-            };
-            let Pose { x, y, phi } = state.pose;
-            let turns_only = self.path.turns_only();
-            let way = if turns_only { (phi - start.phi).abs() } else { (x - start.x).hypot(y - start.y) };
-            let number = (way / self.step).round() as usize;
-            // the sensor goes on where the sweep has nothing to report
-            for _ in next..number {
-                self.sensor.sample(Reactions::default());
-            }
-            next = number + 1;
-            if let Some(reactions) = self.sensor.sample(state.reactions) {
-                samples.push(Sample { t: Some(number as f64 / self.rate), pose: state.pose, reactions, sigma: None });
-            }
-            if watch.should_end() {
-                break;
-            }
+/// The samples up to where the sweep stops or somebody presses Ctrl-C, without the interpreter.
+fn recorded(ticks: Ticks<'_>, rate: f64) -> Result<Vec<Sample>, Stop> {
+    let (mut samples, mut watch) = (Vec::new(), Watch::new());
+    for tick in ticks {
+        let Tick { number, pose, reactions, .. } = tick?;
+        let sample = |reactions| Sample { t: Some(number as f64 / rate), pose, reactions, sigma: None };
+        samples.extend(reactions.map(sample));
+        if watch.should_end() {
+            break;
         }
-        (samples, None)
     }
+    Ok(samples)
 }
 
 /// Simulate a recording: a scene, swept at a speed, felt by a sensor.
@@ -70,12 +45,13 @@ impl Recorder<'_> {
 /// Parameters
 /// ----------
 /// scene : Scene
-///     The rod, the objects and the path of the clamp: one straight leg. For paths of several legs use ``vibrissa simulate``. The
-///     step of the scene is not used.
+///     The rod, the objects and the path of the clamp: any that a scene file can have, straight legs and legs about a pivot. The step of
+///     the scene is not used.
 /// rate : float
 ///     Samples in a second, in Hz.
 /// speed : float
-///     Speed of the clamp: m/s, or rad/s where it only turns.
+///     Speed of the clamp: m/s, or rad/s where it only turns on the whole path. On a leg on which it only turns, of others on which it
+///     moves, the speed in m/s of the tip of the straight rod. Of several legs each takes a whole number of samples, at the nearest speed.
 /// noise : mapping, str or os.PathLike, optional
 ///     The tables of a noise file (``docs/scene-files.md``), such as ``{"white": {"force": 2.5e-3, "m0z": 6e-5}}`` in N and N m, or
 ///     the file. Without it the sensor reads the truth.
@@ -93,7 +69,7 @@ impl Recorder<'_> {
 /// Raises
 /// ------
 /// ValueError
-///     An argument is not possible.
+///     An argument is not possible, or the path has no form in scene files.
 /// SweepStopped
 ///     The sweep could not go on.
 #[pyfunction]
@@ -107,27 +83,28 @@ pub fn simulate<'py>(
     #[pyo3(from_py_with = whole)] seed: u64,
     friction: Option<Given>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    for (what, value) in [("rate", rate), ("speed", speed)] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(errors::value(format!("{what} is {value}, expected a positive, finite number")));
-        }
-    }
-    let path = scene.path.get().path.straight();
-    let path = path.ok_or_else(|| errors::value("the path is not straight, expected a ClampPath"))?;
+    let Some(legs) = &scene.path.get().legs else {
+        return Err(errors::value(
+            "the path has no form in scene files, expected straight legs, or legs about a pivot on which the clamp turns with the arc",
+        ));
+    };
     let noise = noise.map(model).transpose()?.unwrap_or_default();
     let objects: Vec<_> = scene.objects.iter().map(|object| object.bind(py).clone()).collect();
-    let (objects, step, rod) = (contours(&objects), speed / rate, &scene.rod.get().rod);
+    let objects = contours(&objects);
     let friction = match friction {
         Some(given) => given.of(&objects)?,
         None => scene.friction.clone(),
     };
-    let constructor = running::run(py, || {
-        let sensor = noise.generator(seed).map_err(errors::value)?;
-        let sweep = Sweep::new(rod, &objects[..], path, step).and_then(|sweep| rubbing(sweep, friction.as_ref()));
-        Ok::<_, PyErr>(Recorder { sweep: sweep.map_err(errors::value)?, path, sensor, step, rate }.run())
+    let legs = legs.iter().map(Leg::path).collect();
+    let swept = RodOnPath { rod: &scene.rod.get().rod, objects: &objects, legs, friction: friction.as_ref() };
+    // of the command, whose options have the names of the arguments
+    let wrong = |error: SimulationError| errors::value(error.to_string().replace("--", ""));
+    let recorded = running::run(py, || {
+        let ticks = Ticks::new(&swept, &noise, [rate, speed], seed).map_err(wrong)?;
+        Ok::<_, PyErr>(recorded(ticks, rate))
     })?;
-    match constructor? {
-        (_, Some(stop)) => Err(errors::stopped(py, &stop, None)),
-        (samples, None) => structured(py, SAMPLE, samples.iter()),
+    match recorded? {
+        Err(stop) => Err(errors::stopped(py, &stop, None)),
+        Ok(samples) => structured(py, SAMPLE, samples.iter()),
     }
 }

@@ -67,6 +67,63 @@ def test_one_contour_explains_a_recording(scene: vibrissa.Scene, tmp_path: Path)
     assert np.mean(off < 3 * np.hypot(points["sigma_x"], points["sigma_y"])) > 0.95
 
 
+# The clamp goes there, about a pivot and back, and in the end turns on the spot.
+LEGS = "\n[[sweep.leg]]\nangle_to = 80.0\nstep_angle = 1.0\n"
+# It only turns, past two objects that rub.
+TURNING = """
+[rod]
+length = 0.1
+diameter = 0.5e-3
+youngs_modulus = 206e9
+[contact]
+friction = 0.2
+[[object]]
+[[object.piece]]
+shape = "arc"
+center = [-0.02, 0.06]
+radius = 0.02
+[[object]]
+[[object.piece]]
+shape = "arc"
+center = [0.07, -0.01]
+radius = 0.02
+[sweep]
+from = [0.0, 0.0]
+angle = 70.0
+angle_to = 100.0
+step_angle = 1.0
+[[sweep.leg]]
+angle_to = 40.0
+"""
+
+
+@pytest.mark.parametrize("text", [(SCENES / "whisking.toml").read_text() + LEGS, TURNING], ids=["legs", "turning"])
+def test_all_paths_of_scene_files_are_simulated_as_by_the_command(
+    text: str, command: list[str], tmp_path: Path
+) -> None:
+    (tmp_path / "scene.toml").write_text(text)
+    (tmp_path / "noise.toml").write_text(NOISE_FILE + "dropout.probability = 0.1\n")
+    options = ["--noise", "noise.toml", "--rate", "20", "--speed", "0.005", "--seed", "5", "--file", "recording.csv"]
+    subprocess.run([*command, "simulate", "scene.toml", *options], check=True, capture_output=True, cwd=tmp_path)
+    rows = list(csv.DictReader((tmp_path / "recording.csv").open()))
+    scene = vibrissa.Scene.read(tmp_path / "scene.toml")
+    samples = vibrissa.simulate(scene, rate=20.0, speed=0.005, noise=tmp_path / "noise.toml", seed=5)
+    assert len(rows) == len(samples) > 100
+    truth = vibrissa.simulate(scene, rate=20.0, speed=0.005)
+    assert len(truth) > len(samples) and np.count_nonzero(truth["m0z"]) > 30
+    for name in ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z"]:
+        assert [float(row[name]) for row in rows] == samples[name].tolist()
+
+
+def test_what_cannot_be_simulated_is_said(rod: vibrissa.Rod, parabolas: vibrissa.Composite) -> None:
+    spline = vibrissa.ClampSpline([(0.1, -0.1, 1.5), (0.0, -0.1, 1.2), (-0.1, -0.11, 1.5)])
+    with pytest.raises(ValueError, match="^the path has no form in scene files, expected straight legs, or legs about"):
+        vibrissa.simulate(vibrissa.Scene(rod, parabolas, spline, 1e-3), rate=10.0, speed=1e-3)
+    line = vibrissa.Chain.polyline([(0.1, -0.1, 1.5), (0.0, -0.1, 1.5), (0.1, -0.1, 1.5)])
+    with pytest.raises(ValueError, match="^rate 1000000 Hz at speed 0.001 m/s asks for 2.0e8 samples on a path of 0.2"):
+        vibrissa.simulate(vibrissa.Scene(rod, parabolas, line, 1e-3), rate=1e6, speed=1e-3)
+
+
 @pytest.mark.parametrize("fit", [True, False])
 def test_simulated_and_reconstructed_as_by_the_command(
     scene: vibrissa.Scene, command: list[str], tmp_path: Path, fit: bool

@@ -2,7 +2,9 @@
 
 use super::scans::o1;
 use std::f64::consts::{FRAC_PI_2, PI};
-use vibrissa::rod::{Cut, ElasticClamp, Method, Mounted, Ode, PhysicalRod, Pose, Propagator, RodSection};
+use vibrissa::rod::{
+    Cut, ElasticClamp, Elastica, Method, Mounted, Ode, PhysicalRod, Pose, Propagator, RodSection, Segment,
+};
 use vibrissa::{ClampPath, Rod, State, Sweep};
 
 /// Young's modulus by which a wire of diameter `CLAMP` has E I = 1.
@@ -161,4 +163,17 @@ fn without_diameters_there_is_no_stress() {
     assert!(refused.to_string().contains("for 1 sections, expected one for each of the 0 sections"), "{refused}");
     let refused = Rod::sections(1.0, &[section]).unwrap().with_section_diameters(&[-1.0]).unwrap_err();
     assert!(refused.to_string().contains("diameter of section 0 is -1, expected a positive"), "{refused}");
+}
+
+/// A wrong guess of the contacts gives a solution with a contact beyond the tip, whose stress is that of the parts on the rod.
+#[test]
+fn a_contact_beyond_the_tip_adds_no_stress() {
+    let rod = super::scans::cone(0.8);
+    let start = Cut { x: 0.0, y: 0.0, phi: 1.5, moment: 0.7 };
+    let segment = |s: f64, b: f64| Segment { s, start, a: 0.0, b };
+    let shape = |segments: Vec<Segment<Cut>>| Elastica::of_segments(rod.model().clone(), rod.units(), segments);
+    let on_rod = rod.largest_stress(&shape(vec![segment(0.0, 3.0), segment(1.0, 0.0)])).unwrap();
+    let beyond = [segment(0.0, 3.0), segment(1.0, 5.0), segment(0.8, 2.0), segment(0.79, 0.0)];
+    let found = rod.largest_stress(&shape(beyond.to_vec())).unwrap();
+    assert!(found.is_finite() && found >= on_rod, "{found} {on_rod}");
 }

@@ -1,7 +1,7 @@
 // The page: each frame moves the clamp a little towards where it is wished, and shows the answer.
 (async () => {
     const { MODULE, Rod, Recording, View, Chart, Input, Panel, OBJECTS, WIRE } = globalThis.playground;
-    const { preset, stiffness, toText, fromText, toHash, fromHash, toToml, fromToml, isSameEquilibrium } = globalThis.playground;
+    const { preset, stiffness, toText, fromText, toHash, fromHash, toToml, fromToml, isSameEquilibrium, isContact } = globalThis.playground;
     const id = name => document.getElementById(name);
 
     /// Farthest way of the clamp in a frame, m and rad: a longer one takes longer than a frame. The clamp lags behind a fast hand.
@@ -124,8 +124,8 @@
     function follow() {
         const { recovered, contacts } = state, end = trail.at(-1);
         if (!recovered || end && Math.hypot(recovered.x - end.x, recovered.y - end.y) < POINTS_APART) return;
-        const single = contacts.length === 1;
-        trail.push({ ...recovered, kind: single ? contacts[0].kind : 'several', single });
+        const found = isContact(recovered, contacts);
+        trail.push({ ...recovered, kind: found ? contacts[0].kind : 'several', found });
         if (trail.length > MOST_POINTS) trail.shift();
     }
 

@@ -135,7 +135,8 @@
         /// A label inside the canvas, further down where another one is in its way.
         #label(text, x, y) {
             const left = Math.min(Math.max(4, x), this.#width - 76);
-            let line = Math.min(Math.max(14, y), this.#height - 24);
+            // below what it would cover where it does not fit beside
+            let line = Math.min(Math.max(14, left === x ? y : y + 18), this.#height - 24);
             while (this.#labels.some(([ax, ay]) => Math.abs(ax - left) < 76 && Math.abs(ay - line) < 14)) line += 14;
             this.#labels.push([left, line]);
             this.#text(text, left, line);
@@ -151,9 +152,9 @@
             pen.stroke();
         }
 
-        #recovered({ x, y, kind, single }) {
+        #recovered({ x, y, kind, found }) {
             const pen = this.#pen, [px, py] = this.toPixels([x, y]);
-            if (single) {
+            if (found) {
                 mark(pen, kind, px, py, kind === 'tip' ? 2.4 : 2.2);
                 pen.fillStyle = this.#colour('trail');
                 pen.fill();

@@ -1,7 +1,7 @@
 //! The first scans of an object of which only a box is known.
 
 use super::files::{Pose3, pose};
-use super::{LargestStress, PlanFileError};
+use super::{LargestStress, PlanFileError, direction_degrees};
 use crate::output::pretty_json;
 use crate::{OutputError, Staged};
 use serde::Serialize;
@@ -62,7 +62,7 @@ impl Approaches {
                 place + 1,
                 mm(from),
                 mm(to),
-                from.phi.to_degrees(),
+                direction_degrees(from.phi),
                 abort.force,
                 1e3 * abort.moment
             );

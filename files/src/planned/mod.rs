@@ -27,6 +27,12 @@ const DISTANCES: [f64; 5] = [0.2, 0.35, 0.5, 0.65, 0.8];
 /// Angles that are tried unless others are given: all around.
 const ANGLES: usize = 24;
 
+/// A direction (rad) in degrees, from 0 to less than 360 as it is printed with two digits.
+fn direction_degrees(angle: f64) -> f64 {
+    // a remainder of nothing may be -0
+    0.0 + ((100.0 * angle.to_degrees()).round() / 100.0).rem_euclid(360.0)
+}
+
 /// Why a plan cannot be made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -162,5 +168,16 @@ impl Planned {
         let mut ranked: Vec<(usize, &Forecast)> = self.plan.forecasts.iter().enumerate().collect();
         ranked.sort_by(|one, other| other.1.gain.total_cmp(&one.1.gain));
         ranked
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_whole_turn_is_printed_as_none() {
+        let shown = |degrees: f64| format!("{:.2}", direction_degrees(degrees.to_radians()));
+        assert_eq!([360.0, -1e-9, 390.0, 359.999, -90.0].map(shown), ["0.00", "0.00", "30.00", "0.00", "270.00"]);
     }
 }

@@ -1,6 +1,7 @@
 //! A plan in words.
 
 use super::Planned;
+use super::direction_degrees;
 use super::files::median_sigma;
 use std::fmt::Write;
 
@@ -32,7 +33,7 @@ impl Planned {
                 1e3 * from.y,
                 1e3 * to.x,
                 1e3 * to.y,
-                from.phi.to_degrees(),
+                direction_degrees(from.phi),
                 1e3 * choice.gain,
                 forecast.time
             )?;

@@ -148,9 +148,9 @@ impl Reconstructed {
     /// What is not there because the rod is not uniform or not straight at rest, in words; none for one that is.
     pub fn missing(&self) -> Option<&'static str> {
         self.rod.uniform().is_none().then_some(
-            "not computed for a rod that is not uniform or not straight at rest: corrections and standard deviations of systematic \
-             errors (bias, drift, gain, clamp angle), the check by the physics, likely causes of a misfit, and, in noise, the change from BB \
-             to BA within a stretch of two contacts, where the errors of points may exceed their standard deviations",
+            "not computed for a rod that is not uniform or not straight at rest: the check by the \
+             physics, likely causes of a misfit, and, where no contour explains the recording, the change from BB to BA within a stretch of two \
+             contacts, where the errors of points may exceed their standard deviations",
         )
     }
 

@@ -35,13 +35,11 @@ impl Reconstructed {
         )?;
         let (kinks, gaps) = (self.found.kinks.len(), self.contour.gaps.len());
         writeln!(text, "{}, {}", counted(kinks, "kink"), counted(gaps, "gap"))?;
-        match self.missing() {
-            Some(missing) => writeln!(text, "{missing}")?,
-            None => {
-                self.tell_friction(text)?;
-                self.tell_calibration(text)?;
-            }
+        if let Some(missing) = self.missing() {
+            writeln!(text, "{missing}")?;
         }
+        self.tell_friction(text)?;
+        self.tell_calibration(text)?;
         self.tell_physics(text)?;
         self.tell_fit(text)?;
         text.push_str(&self.run_table().to_string());
@@ -183,17 +181,17 @@ impl Comparison {
         }
         text.push_str(&table.to_string());
         let real = self.kinks_of_events.matches.len();
+        let [unit, error] = if scene.turns_only() { ["mrad", "error mrad"] } else { ["mm", "error mm"] };
         writeln!(
             text,
-            "kinks of the reactions: of {} changes of contact that cause one, {} were found within 1 mm of the clamp's way; \
+            "kinks of the reactions: of {} changes of contact that cause one, {} were found within 1 {unit} of the clamp's way; \
              of {} kinks found, {real} belong to a change of contact and {} to none",
             kinks.truth,
             kinks.matches.len(),
             kinks.found,
             kinks.found - real.min(kinks.found)
         )?;
-        let unit = if scene.path.turns_only() { "error mrad" } else { "error mm" };
-        let mut table = Table::new(["transition", "kind"].into_iter().chain(clamp.names()).chain([unit]));
+        let mut table = Table::new(["transition", "kind"].into_iter().chain(clamp.names()).chain([error]));
         for Transition { from, to, kind, pose, error } in &self.transitions {
             let error = error.map_or_else(|| "-".into(), |error| format!("{:.4}", 1e3 * error));
             let transition = [format!("{from} -> {to}"), kind.to_string()];

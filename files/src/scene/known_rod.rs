@@ -17,13 +17,9 @@ use vibrissa::rod::AnyRod;
 pub struct CalibratedRod {
     /// The rod.
     pub rod: AnyRod,
-    /// Nothing where the file has no table `[calibration]`, which only a uniform rod that is straight at rest may have.
+    /// Nothing where the file has no table `[calibration]`.
     pub known: Known,
 }
-
-/// What is said of a calibration of a rod of which there is none.
-const NO_CALIBRATION: &str = "given for a rod that is not uniform or not straight at rest, of which errors that all samples share are \
-     not estimated, expected no table [calibration]";
 
 /// The unit of a source in the table `[calibration]`, and what one unit of the library is in it.
 pub fn unit_of(source: Source, rod: &Rod) -> (&'static str, f64) {
@@ -47,10 +43,7 @@ fn parse_any(file: &Path, text: &str) -> Result<CalibratedRod, SceneError> {
     toml_file::parse_quantities(file, text, schema::rod_file, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
         let rod = file.any()?;
-        match (rod.uniform(), &file.calibration) {
-            (None, Some(table)) => Err(Fault::new(table.span(), NO_CALIBRATION)),
-            _ => Ok(CalibratedRod { known: file.known(rod.at_clamp())?, rod }),
-        }
+        Ok(CalibratedRod { known: file.known(rod.at_clamp())?, rod })
     })
 }
 
@@ -105,15 +98,15 @@ mod tests {
     const ROD: &str = "[rod]\nlength = 0.1\nbending_stiffness = 1e-3\n";
 
     #[test]
-    fn only_a_uniform_rod_has_a_calibration() {
+    fn any_rod_may_have_a_calibration() {
         let cone = "[rod]\nlength = 0.1\ndiameter = 1e-3\ntip_diameter = 5e-4\nyoungs_modulus = 2e11\n";
         let CalibratedRod { rod, known } = parse_any("rod.toml".as_ref(), cone).unwrap();
         assert!(rod.varying().is_some() && rod.uniform().is_none() && known.is_nothing());
         let at_clamp = Rod::from_diameter(0.1, 1e-3, 2e11).unwrap().bending_stiffness();
         assert!((rod.at_clamp().bending_stiffness() / at_clamp - 1.0).abs() < 1e-14 && rod.length() == 0.1);
         let table = format!("{cone}[calibration]\nlag = {{ value = 1e-3, sigma = 1e-4 }}\n");
-        let error = parse_any("rod.toml".as_ref(), &table).unwrap_err().to_string();
-        assert!(error.starts_with("rod.toml:6:1: calibration: ") && error.contains("not estimated"), "{error}");
+        let CalibratedRod { known, .. } = parse_any("rod.toml".as_ref(), &table).unwrap();
+        assert_eq!(known.of(Source::Lag), Some((1e-3, 1e-4)));
     }
 
     #[test]

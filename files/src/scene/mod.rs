@@ -13,6 +13,7 @@ mod leg;
 mod numbers;
 mod object;
 mod rod;
+mod rod_on_path;
 mod rod_table;
 mod scans;
 mod schema;
@@ -24,6 +25,7 @@ pub use known_rod::{CalibratedRod, read_calibrated_rod, read_uniform_rod, unit_o
 pub use leg::{Leg, LegPath};
 pub(crate) use numbers::MOST_STATES;
 pub use rod::{FilmedRod, read_filmed_rod};
+pub use rod_on_path::RodOnPath;
 pub use scans::{ScanList, read_scans};
 
 use crate::SceneError;
@@ -33,7 +35,7 @@ use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use toml::de::{DeTable, Deserializer};
 use toml::{Spanned, Table};
-use vibrissa::contact::{Chain, ContactError, StopReason};
+use vibrissa::contact::{ContactError, StopReason};
 use vibrissa::rod::AnyRod;
 use vibrissa::{ClampPath, Composite, Pose, Rod, State, Sweep};
 
@@ -173,20 +175,13 @@ impl Scene {
     /// # Errors
     /// [`ContactError`] where `step` is no step, which [`parse`](Self::parse) has excluded.
     pub fn sweep(&self) -> Result<Sweep<'_, AnyRod>, ContactError> {
-        self.sweep_by(&self.all_legs().map(|leg| leg.step).collect::<Vec<_>>())
+        self.on_path().sweep_by(&self.all_legs().map(|leg| leg.step).collect::<Vec<_>>())
     }
 
-    /// The sweep with states at other distances, one for each of [`all_legs`](Self::all_legs).
-    ///
-    /// # Errors
-    /// As [`Sweep::with_steps`].
-    pub fn sweep_by(&self, steps: &[f64]) -> Result<Sweep<'_, AnyRod>, ContactError> {
-        let path = Chain::new(self.all_legs().map(|leg| leg.path.path()).collect())?;
-        let sweep = Sweep::with_steps(&self.rod, &self.objects, path, steps)?;
-        match &self.friction {
-            Some(friction) => sweep.with_friction(friction.clone()),
-            None => Ok(sweep),
-        }
+    /// What is swept, without the distances of its states.
+    pub fn on_path(&self) -> RodOnPath<'_> {
+        let legs = self.all_legs().map(|leg| leg.path).collect();
+        RodOnPath { rod: &self.rod, objects: &self.objects, legs, friction: self.friction.as_ref() }
     }
 
     /// The legs of the whole path in order: `path`, and those after it.
@@ -197,7 +192,7 @@ impl Scene {
 
     /// Whether the clamp turns without moving on all legs.
     pub fn turns_only(&self) -> bool {
-        self.all_legs().all(|leg| leg.path.turns_only())
+        self.on_path().turns_only()
     }
 
     /// How many steps the path is long.

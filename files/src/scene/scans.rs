@@ -67,10 +67,24 @@ fn parse(file: &Path, text: &str, length: f64) -> Result<ScanList, SceneError> {
         if scan.is_empty() && path.is_empty() {
             return Err(Fault::new(span, "the file has no scans, expected tables [[scan]] or [[path]]"));
         }
-        let scans = scan.iter().map(|table| scans_of(table.get_ref(), length)).collect::<Result<Vec<_>, _>>()?;
-        let paths = path.into_iter().map(|table| path_of(table, length)).collect::<Result<_, _>>()?;
-        Ok(ScanList { scans: scans.concat(), paths })
+        let (scans, faulty_scans) = apart(scan.iter().map(|table| scans_of(table.get_ref(), length)));
+        let (paths, faulty_paths) = apart(path.into_iter().map(|table| path_of(table, length)));
+        let faults: Vec<Fault> = faulty_scans.into_iter().chain(faulty_paths).collect();
+        let first = faults.first().map_or(span, Fault::span);
+        Fault::all(first, faults).map_or_else(|| Ok(ScanList { scans: scans.concat(), paths }), Err)
     })
+}
+
+/// The good results and the faults of some tables.
+fn apart<T>(tables: impl Iterator<Item = Result<T, Fault>>) -> (Vec<T>, Vec<Fault>) {
+    let (mut good, mut faults) = (Vec::new(), Vec::new());
+    for table in tables {
+        match table {
+            Ok(one) => good.push(one),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    (good, faults)
 }
 
 /// One scan, or both passes.
@@ -162,6 +176,15 @@ mod tests {
             (
                 "[scan]\ndistance = 0.02\nangle = 90",
                 "scan is a table, expected a list of tables: [[scan]] with two brackets",
+            ),
+            (
+                "[[scan]]\ndistance = 0.2\nangle = 90\n\n[[scan]]\ndistance = -1\nangle = 90\n\n[[path]]\nfrom = [0, 0]\nangle = 90",
+                "scans.toml:2:12: scan[1].distance: distance is 0.2 m, expected more than 0 and less than the rod's length, 0.1 m; \
+                 distance is -1 m, expected more than 0 and less than the rod's length, 0.1 m (line 6); ",
+            ),
+            (
+                "[[scan]]\ndistance = 0.02\n\n[[path]]\nfrom = [0]\nangle = 90\n\n[[path]]\nfrom = [0, 0]\nangle = \"up\"",
+                "missing field `angle`; from is a list of 1, expected two numbers: [x, y] (line 5); angle is the text \"up\", expected a number (line 10)",
             ),
         ] {
             let error = read(text).unwrap_err();

@@ -233,14 +233,26 @@ pub(super) fn elastica(table: &Spanned<DeTable<'_>>) -> Result<Quantities, Fault
 /// The quantities of a list of scans.
 ///
 /// # Errors
-/// As [`scene`].
+/// All that is missing or wrong in its tables, as [`scene`].
 pub(super) fn scans(table: &Spanned<DeTable<'_>>) -> Result<Quantities, Fault> {
-    let mut quantities = Quantities::default();
+    let (mut quantities, mut faults, mut first) = (Quantities::default(), Vec::new(), 0..0);
+    let (mut count, mut is_final) = (0, false);
     for (name, rules) in [("scan", SCAN), ("path", SCAN_PATH)] {
         check_list(table.get_ref(), name)?;
-        tables_of(table.get_ref(), name).into_iter().try_for_each(|one| check(one, rules, &[], &mut quantities))?;
+        for one in tables_of(table.get_ref(), name) {
+            let found = faults_of(one, rules, &[], &mut quantities);
+            if faults.is_empty() {
+                first = one.span();
+            }
+            (count, is_final) = (count + found.count, is_final || found.is_final);
+            faults.extend(found.faults);
+        }
     }
-    Ok(quantities)
+    // a single one is left to those who read the table, and say more about it
+    if count < 2 && !is_final {
+        return Ok(quantities);
+    }
+    Fault::all(first, faults).map_or(Ok(quantities), Err)
 }
 
 /// Refuses a single table where a list of them belongs.
@@ -317,14 +329,39 @@ fn piece_rules(piece: &Spanned<DeValue<'_>>) -> Vec<FieldRule> {
     own.chain(OF_ALL_PIECES.map(|name| optional(name, Any))).collect()
 }
 
-/// Reads the quantities of a table.
+/// Reads the quantities of a table. A single fault is left to those who read the table, unless it is final.
 fn check(
     table: &Spanned<DeValue<'_>>,
     rules: &[FieldRule],
     unless: &[MissingUnless],
     quantities: &mut Quantities,
 ) -> Result<(), Fault> {
-    let Some(fields) = table.get_ref().as_table() else { return Ok(()) };
+    let Found { faults, count, is_final } = faults_of(table, rules, unless, quantities);
+    if count < 2 && !is_final {
+        return Ok(());
+    }
+    Fault::all(table.span(), faults).map_or(Ok(()), Err)
+}
+
+/// What is wrong with a table.
+struct Found {
+    faults: Vec<Fault>,
+    /// How many fields are missing or wrong: the first fault may name several that are missing.
+    count: usize,
+    /// Whether one of the faults is said nowhere else so well.
+    is_final: bool,
+}
+
+/// Reads the quantities of a table, and finds all that is missing or wrong.
+fn faults_of(
+    table: &Spanned<DeValue<'_>>,
+    rules: &[FieldRule],
+    unless: &[MissingUnless],
+    quantities: &mut Quantities,
+) -> Found {
+    let Some(fields) = table.get_ref().as_table() else {
+        return Found { faults: Vec::new(), count: 0, is_final: false };
+    };
     let mut reader = Reader { quantities, faults: Vec::new(), is_final: false };
     let names: Vec<&str> = rules.iter().map(|rule| rule.name).collect();
     let mut mistyped = Vec::new();
@@ -349,9 +386,6 @@ fn check(
     let others: Vec<&str> = others.map(|(_, said)| *said).take(if unless == STIFFNESS { 1 } else { 2 }).collect();
     let Reader { faults, is_final, .. } = reader;
     let count = missing.len() + others.len() + faults.len();
-    if count < 2 && !is_final {
-        return Ok(());
-    }
     let of_all = match missing.as_slice() {
         [] => None,
         [one] => Some(format!("missing field {one}")),
@@ -359,7 +393,7 @@ fn check(
     };
     let missing = of_all.into_iter().chain(others.into_iter().map(str::to_owned));
     let missing = missing.map(|message| Fault::new(table.span(), message));
-    Fault::all(table.span(), missing.chain(faults).collect()).map_or(Ok(()), Err)
+    Found { faults: missing.chain(faults).collect(), count, is_final }
 }
 
 struct Reader<'a> {

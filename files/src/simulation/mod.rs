@@ -9,7 +9,7 @@ pub use speed::Speed;
 pub use ticks::{Tick, Ticks};
 
 use crate::output::csv_writer;
-use crate::scene::{LegPath, MOST_STATES};
+use crate::scene::MOST_STATES;
 use crate::{Interrupt, Interrupted, OutputError, Scene, Staged};
 use std::io::{self, Write};
 use std::path::Path;
@@ -36,8 +36,7 @@ pub struct Simulation {
     pub noise: NoiseModel,
     /// Samples in a second, 1/s.
     pub rate: f64,
-    /// Speed of the clamp: m/s, or rad/s where it only turns on the whole path. On a leg on which it only turns, of others on which it moves,
-    /// the speed in m/s of the tip of the straight rod.
+    /// Speed of the clamp, as of [`Ticks::new`].
     pub speed: f64,
     /// Of the noise.
     pub seed: u64,
@@ -127,8 +126,7 @@ impl SimulationError {
 impl Simulation {
     /// Sweeps the scene and writes a sample every `speed / rate` of the clamp's way to the CSV file `out`, which
     /// appears when it is complete: t, x0, y0, phi0, f0x, f0y, m0z, and the standard deviations where they are asked
-    /// for. The time counts from the start of the path. Poses that a snap jumps over have no sample. Of several legs each takes a whole
-    /// number of samples, at the speed that is nearest to `speed`, so that there is a sample where the clamp turns.
+    /// for. The samples are those of [`Ticks`].
     ///
     /// The memory it takes does not grow with the number of samples.
     ///
@@ -172,33 +170,6 @@ impl Simulation {
         let (Pose { x, y, phi }, Reactions { f0x, f0y, m0z }) = (pose, reactions);
         let t = number as f64 / self.rate;
         [t, x, y, phi, f0x, f0y, m0z, sigma.f0x, sigma.f0y, sigma.m0z]
-    }
-
-    /// Way of the clamp between two samples on each leg, in the unit of its parameter, and how many such ways the path is long.
-    fn steps(&self) -> Result<(Vec<f64>, f64), SimulationError> {
-        let Self { scene, rate, speed, .. } = self;
-        let [unit, per_second] = if scene.turns_only() { ["rad", "rad/s"] } else { ["m", "m/s"] };
-        for (what, value, unit) in [("--rate", *rate, "Hz"), ("--speed", *speed, per_second)] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(SimulationError::NotPositive { what, value, unit });
-            }
-        }
-        let step = speed / rate;
-        let way = |path: &LegPath| {
-            let on_the_spot = path.turns_only() && !scene.turns_only();
-            path.length() * if on_the_spot { scene.rod.length() } else { 1.0 }
-        };
-        let legs: Vec<(LegPath, f64)> = scene.all_legs().map(|leg| (leg.path, way(&leg.path))).collect();
-        let length: f64 = legs.iter().map(|leg| leg.1).sum();
-        let samples = length / step;
-        // Written so that it holds for a step of zero, too.
-        if samples <= MOST_STATES {
-            let whole = |(path, way): &(LegPath, f64)| path.length() / (way / step).round().max(1.0);
-            let steps = if scene.legs.is_empty() { vec![step] } else { legs.iter().map(whole).collect() };
-            Ok((steps, samples))
-        } else {
-            Err(SimulationError::TooMany { rate: *rate, speed: *speed, samples, length, unit })
-        }
     }
 
     fn sigma(&self) -> Result<Reactions, SimulationError> {

@@ -27,8 +27,19 @@ impl Speed {
     /// # Errors
     /// [`SimulationError::SpeedUnit`] where the unit is of the other motion.
     pub fn of(&self, scene: &Scene) -> Result<f64, SimulationError> {
+        self.where_it(scene.turns_only())
+    }
+
+    /// In m/s, of a clamp that moves.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub fn where_it_moves(&self) -> Result<f64, SimulationError> {
+        self.where_it(false)
+    }
+
+    fn where_it(&self, turns: bool) -> Result<f64, SimulationError> {
         let Some(unit) = self.unit else { return Ok(self.number) };
-        let turns = scene.turns_only();
         if (unit.dimension == Dimension::Angle) == turns {
             return Ok(self.number * unit.factor);
         }

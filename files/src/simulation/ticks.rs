@@ -1,7 +1,7 @@
 //! The samples of a simulated recording, one after the other.
 
 use super::{Simulation, SimulationError};
-use crate::scene::{Leg, LegPath};
+use crate::scene::{LegPath, MOST_STATES, RodOnPath};
 use vibrissa::contact::{Item, RollerContact, Stop};
 use vibrissa::reconstruct::{Dropout, NoiseGenerator, NoiseModel};
 use vibrissa::rod::{AnyRod, Reactions};
@@ -22,8 +22,9 @@ pub struct Tick {
     pub roller: Option<f64>,
 }
 
-/// The samples along a scene, in order; an error where the sweep stops early, and nothing after it. Poses that a snap jumps
-/// over have no sample, but a number.
+/// The samples along the path of a clamp, in order; an error where the sweep stops early, and nothing after it. Poses that a snap jumps
+/// over have no sample, but a number. Of several legs each takes a whole number of samples, at the speed that is nearest to the one asked for,
+/// so that there is a sample where the clamp turns. The memory they take does not grow with their number.
 #[derive(Debug)]
 pub struct Ticks<'a> {
     sweep: Sweep<'a, AnyRod>,
@@ -38,25 +39,69 @@ pub struct Ticks<'a> {
     next: usize,
 }
 
+impl<'a> Ticks<'a> {
+    /// The samples that a sensor with this noise takes, `rate` in a second (Hz). `speed` is that of the clamp: m/s, or rad/s where it only
+    /// turns on the whole path. On a leg on which it only turns, of others on which it moves, it is the speed in m/s of the tip of the
+    /// straight rod. `seed` is that of the noise.
+    ///
+    /// # Errors
+    /// [`SimulationError`].
+    pub fn new(
+        swept: &RodOnPath<'a>,
+        noise: &NoiseModel,
+        [rate, speed]: [f64; 2],
+        seed: u64,
+    ) -> Result<Self, SimulationError> {
+        let ((steps, expected), sensor) = (steps(swept, rate, speed)?, noise.generator(seed)?);
+        // a sample is lost as a whole
+        let of_roller = NoiseModel { dropout: Dropout::default(), crosstalk: [[0.0; 3]; 3], ..*noise };
+        let roller = of_roller.generator(seed ^ ROLLER_SEED)?;
+        let sweep = swept.sweep_by(&steps)?;
+        let mut first = 0;
+        let leg = |(path, step): (&LegPath, f64)| {
+            let this = first;
+            first += (path.length() / step).round() as usize;
+            (*path, step, this)
+        };
+        let legs = swept.legs.iter().zip(steps).map(leg).collect();
+        Ok(Self { sweep, legs, expected, sensor, roller, next: 0 })
+    }
+}
+
 impl Simulation {
-    /// The samples. The memory they take does not grow with their number.
+    /// The samples.
     ///
     /// # Errors
     /// [`SimulationError`].
     pub fn ticks(&self) -> Result<Ticks<'_>, SimulationError> {
-        let ((steps, expected), sensor) = (self.steps()?, self.noise.generator(self.seed)?);
-        // a sample is lost as a whole
-        let of_roller = NoiseModel { dropout: Dropout::default(), crosstalk: [[0.0; 3]; 3], ..self.noise };
-        let roller = of_roller.generator(self.seed ^ ROLLER_SEED)?;
-        let sweep = self.scene.sweep_by(&steps)?;
-        let mut first = 0;
-        let leg = |(leg, step): (Leg, f64)| {
-            let this = first;
-            first += (leg.path.length() / step).round() as usize;
-            (leg.path, step, this)
-        };
-        let legs = self.scene.all_legs().zip(steps).map(leg).collect();
-        Ok(Ticks { sweep, legs, expected, sensor, roller, next: 0 })
+        Ticks::new(&self.scene.on_path(), &self.noise, [self.rate, self.speed], self.seed)
+    }
+}
+
+/// Way of the clamp between two samples on each leg, in the unit of its parameter, and how many such ways the path is long.
+fn steps(swept: &RodOnPath<'_>, rate: f64, speed: f64) -> Result<(Vec<f64>, f64), SimulationError> {
+    let turns_only = swept.turns_only();
+    let [unit, per_second] = if turns_only { ["rad", "rad/s"] } else { ["m", "m/s"] };
+    for (what, value, unit) in [("--rate", rate, "Hz"), ("--speed", speed, per_second)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(SimulationError::NotPositive { what, value, unit });
+        }
+    }
+    let step = speed / rate;
+    let way = |path: &LegPath| {
+        let on_the_spot = path.turns_only() && !turns_only;
+        path.length() * if on_the_spot { swept.rod.length() } else { 1.0 }
+    };
+    let legs: Vec<(f64, f64)> = swept.legs.iter().map(|path| (path.length(), way(path))).collect();
+    let length: f64 = legs.iter().map(|leg| leg.1).sum();
+    let samples = length / step;
+    // Written so that it holds for a step of zero, too.
+    if samples <= MOST_STATES {
+        let whole = |(length, way): &(f64, f64)| length / (way / step).round().max(1.0);
+        let steps = if let [_] = legs[..] { vec![step] } else { legs.iter().map(whole).collect() };
+        Ok((steps, samples))
+    } else {
+        Err(SimulationError::TooMany { rate, speed, samples, length, unit })
     }
 }
 

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Angles, and distances in rod lengths, that are tried unless others are given.
 const ANGLES: usize = 12;
-const DISTANCES: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
+const DISTANCES: [f64; 4] = [0.35, 0.5, 0.65, 0.8];
 
 /// Where the rig can bring the clamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +52,7 @@ pub struct ExplorerSettings {
 }
 
 impl ExplorerSettings {
-    /// For an object in a rectangle and a sensor with this noise: 12 angles all around and distances of 0.2, 0.4, 0.6 and 0.8 rod lengths, the yield stress of the rod,
+    /// For an object in a rectangle and a sensor with this noise: 12 angles all around and distances of 0.35, 0.5, 0.65 and 0.8 rod lengths, the yield stress of the rod,
     /// a sample every 0.0005 rod lengths at 0.01 rod lengths a second, a standard deviation of 0.001 and a least gain of 0.02 rod lengths, 40 scans, 4 hypotheses.
     ///
     /// # Errors
@@ -63,7 +63,7 @@ impl ExplorerSettings {
         Ok(Self {
             object,
             stage: None,
-            angles: (0..ANGLES).map(|k| FRAC_PI_2 + TAU * k as f64 / ANGLES as f64).collect(),
+            angles: (0..ANGLES).map(|k| (FRAC_PI_2 + TAU * k as f64 / ANGLES as f64) % TAU).collect(),
             distances: DISTANCES.map(|share| share * length).to_vec(),
             largest_stress,
             noise,

@@ -68,10 +68,11 @@ impl<R: PhysicalRod> Fit<'_, R> {
             forward.follow(state, (0..middle).rev(), &poses, &mut found);
             for (answer, state) in answers[block.samples.clone()].iter_mut().zip(&found) {
                 let told = |state: &State| {
-                    let distinct = model.curve.distinct(&state.contacts, covariance, length);
+                    let contacts = model.bent_contacts(k, &state.contacts, length);
+                    let distinct = model.curve.distinct(&contacts, covariance, length);
                     let is_on_touched =
                         |contact| model.curve.node_at(contact).is_some_and(|node| touched.contains(&node));
-                    let is_known: Vec<bool> = state.contacts.iter().map(is_on_touched).collect();
+                    let is_known: Vec<bool> = contacts.iter().map(is_on_touched).collect();
                     self.answer(x, &distinct, &is_known, &covariances, probability)
                 };
                 // a contact that begins inside the block may have no covariance yet

@@ -10,9 +10,10 @@ use rod_core::PhysicalRod;
 impl<R: PhysicalRod> Fit<'_, R> {
     /// The mean reactions of each block, dimensionless: those at its mean pose, to second order in its way, and the mean of states along it where contacts
     /// change. None where the rod jumps inside it.
-    pub fn means(&self, Model { curve, objects, states, .. }: &Model) -> Vec<Option<Vector3<f64>>> {
+    pub fn means(&self, model: &Model) -> Vec<Option<Vector3<f64>>> {
+        let Model { curve, objects, states, .. } = model;
         let (forward, units) = (Forward { rod: self.rod, curve, objects }, self.rod.units());
-        let at: Vec<Vector3<f64>> = states.iter().map(|state| self.reactions(state.as_ref())).collect();
+        let at: Vec<Vector3<f64>> = (0..states.len()).map(|k| self.reactions(k, model)).collect();
         let blocks = &self.blocks.blocks;
         let mean =
             |k: usize| {
@@ -20,7 +21,8 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 let half = blocks[k].half;
                 if changes_inside(states, k) {
                     let mean = forward.mean_reactions(state, [half.x * units.length, half.y * units.length, half.z])?;
-                    return Some(Clamp::new(units, state.pose, mean).reactions);
+                    let bent = at[k] - Clamp::new(units, state.pose, state.reactions).reactions;
+                    return Some(Clamp::new(units, state.pose, mean).reactions + bent);
                 }
                 let segment = self.blocks.segment_of(k);
                 let has_neighbours =

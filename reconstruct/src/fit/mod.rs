@@ -203,8 +203,8 @@ pub fn fit_contour<R: PhysicalRod>(
 /// Fits one contour to the samples of several recordings of one object, with one rod in one frame, from their answers so far on. Each recording has a bias
 /// and a drift of its own; all other errors (of rod, sensor, clamp and stage) are those of all recordings. The fit to each recording is the same but for its
 /// errors, blocks, answers and goodness. All recordings are explained, or none. Errors are estimated if the local answer
-/// corrects some, or no contour explains the recording without; of a rod that is not uniform never, and of a uniform one none of its natural
-/// curvature. Of those only the ones stay free that the recording asks for, by evidence.
+/// corrects some, or no contour explains the recording without; that of the natural curvature counts to first order. Of those only the ones stay free
+/// that the recording asks for, by evidence.
 ///
 /// The fit starts from the contact points that are answered, taken in several ways for a contour, and from those that single contacts would have
 /// wherever there is no answer. The first start that explains the recording wins, else the one of lowest cost.

@@ -10,9 +10,9 @@ use crate::pipeline::Reconstruction;
 use crate::point::Clamp;
 use crate::systematic::{Correction, Errors, Source};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
-use rod_contact::{Derivatives, Quantity, State};
+use rod_contact::{Contact, Derivatives, Quantity, State};
 use rod_contours::Composite;
-use rod_core::{PhysicalRod, Pose, Response, Rod, SupportRate};
+use rod_core::{PhysicalRod, Pose, Reactions, Response, Rod, RodParameter, SupportRate, Units};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -73,8 +73,8 @@ impl Sources {
         let (mut known, mut start) = (vec![Errors::zeros(); locals.len()], vec![Errors::zeros(); locals.len()]);
         for (local, (known, start)) in locals.iter().zip(known.iter_mut().zip(&mut start)) {
             for estimate in local.calibration().iter().flat_map(|calibration| &calibration.sources) {
-                // the rod of the model is straight and has no friction
-                if !matches!(estimate.source, Source::NaturalCurvature | Source::Friction) {
+                // the rod of the model has no friction
+                if estimate.source != Source::Friction {
                     let (k, unit) = (estimate.source as usize, estimate.source.unit(rod));
                     (known[k], start[k]) = (estimate.known / unit, estimate.taken / unit);
                     sigmas[k] = sigmas[k].max(estimate.budget / unit);
@@ -200,6 +200,37 @@ pub(super) struct Model {
     pub objects: Vec<Composite>,
     pub corrected: Vec<Corrected>,
     pub states: Vec<Option<State>>,
+    /// How far the rod is bent at rest beyond what is given, times its length.
+    pub natural: f64,
+    /// How each state changes with that, per 1/m; none where the rod touches nothing or is at a fold, and where it is known.
+    pub by_natural: Vec<Option<Response>>,
+}
+
+impl Model {
+    /// The contacts of a state at a block, to first order in what the rod is bent at rest beyond what is given.
+    pub fn bent_contacts(&self, block: usize, contacts: &[Contact], length: f64) -> Vec<Contact> {
+        let mut bent = contacts.to_vec();
+        let rates = self.by_natural.get(block).and_then(Option::as_ref).map_or(&[][..], |response| &response.contacts);
+        if rates.len() == contacts.len() {
+            let more = self.natural / length;
+            for (contact, rate) in bent.iter_mut().zip(rates) {
+                contact.x += rate.x * more;
+                contact.y += rate.y * more;
+                contact.alpha += rate.alpha * more;
+                contact.s += rate.s * more;
+                contact.force += rate.force * more;
+            }
+        }
+        bent
+    }
+
+    /// How the reactions of a block change with the natural curvature of the rod, times its length; dimensionless.
+    fn reactions_by_natural(&self, block: usize, units: Units) -> Vector3<f64> {
+        let by = self.by_natural.get(block).and_then(Option::as_ref).map(|response| response.reactions);
+        by.map_or_else(Vector3::zeros, |Reactions { f0x, f0y, m0z }| {
+            Vector3::new(f0x / units.force, f0y / units.force, m0z / units.moment) / units.length
+        })
+    }
 }
 
 /// Derivatives of the reactions of a state: by the pose, and by the offsets of the points of the contour that it feels.
@@ -285,10 +316,12 @@ impl<R: PhysicalRod> Fit<'_, R> {
         Corrected { pose: Pose { x: pose.x, y: pose.y, phi: pose.z }, reactions, by_reactions, pose_by_reactions }
     }
 
-    /// The reactions of a state, dimensionless.
-    pub fn reactions(&self, state: Option<&State>) -> Vector3<f64> {
-        let of = |state: &State| Clamp::new(self.rod.units(), state.pose, state.reactions).reactions;
-        state.map_or(Vector3::zeros(), of)
+    /// The reactions at a block of a model, dimensionless, to first order in what the rod is bent at rest beyond what is given.
+    pub fn reactions(&self, block: usize, model: &Model) -> Vector3<f64> {
+        let units = self.rod.units();
+        let of = |state: &State| Clamp::new(units, state.pose, state.reactions).reactions;
+        let bent = model.reactions_by_natural(block, units) * model.natural;
+        model.states[block].as_ref().map_or_else(Vector3::zeros, of) + bent
     }
 
     /// The model with these unknowns; none where its contour is no curve.
@@ -298,13 +331,31 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let poses: Vec<Pose> = model.corrected.iter().map(|one| one.pose).collect();
         let forward = Forward { rod: self.rod, curve: &model.curve, objects: &model.objects };
         model.states = forward.states(self.blocks, &self.asked, &poses, &self.states);
+        model.by_natural = self.by_natural(&model);
         Some(model)
     }
 
     /// The model with these unknowns, whose contour and states are known.
     pub fn model_with(&self, x: &DVector<f64>, curve: Curve, states: Vec<Option<State>>) -> Option<Model> {
-        let (objects, corrected) = (curve.objects()?, self.corrected(&self.errors(x))?);
-        Some(Model { curve, objects, corrected, states })
+        let errors = self.errors(x);
+        let (objects, corrected) = (curve.objects()?, self.corrected(&errors)?);
+        // one rod for all recordings
+        let natural = errors.first().map_or(0.0, |errors| errors[Source::NaturalCurvature as usize]);
+        let mut model = Model { curve, objects, corrected, states, natural, by_natural: Vec::new() };
+        model.by_natural = self.by_natural(&model);
+        Some(model)
+    }
+
+    /// How the states of a model change with the natural curvature of the rod, where that is not known to be as given.
+    fn by_natural(&self, Model { objects, states, natural, .. }: &Model) -> Vec<Option<Response>> {
+        if *natural == 0.0 && self.sources.free.iter().all(|error| error.source != Source::NaturalCurvature) {
+            return Vec::new();
+        }
+        let of = |state: &State| {
+            let derivatives = Derivatives::new(self.rod, objects, state).ok()?;
+            derivatives.by_rod(self.rod, RodParameter::NaturalCurvature).ok()
+        };
+        states.iter().map(|state| state.as_ref().filter(|state| !state.contacts.is_empty()).and_then(of)).collect()
     }
 
     /// Whether a block without a state is explained by a free rod: nothing in its segment tells of a contact.
@@ -399,7 +450,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
     fn rates_of(
         &self,
         x: &DVector<f64>,
-        Model { curve, objects, corrected, .. }: &Model,
+        Model { curve, objects, corrected, by_natural, .. }: &Model,
         block: usize,
         state: &State,
         stepped: &[Vec<Correction>],
@@ -421,7 +472,14 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 add(curve.count() + i, response, moved / STEP);
             }
         }
-        if let Some(i) = self.sources.free.iter().position(|error| error.source == Source::Length) {
+        let number = |source: Source| self.sources.free.iter().position(|error| error.source == source);
+        if let Some((i, response)) =
+            number(Source::NaturalCurvature).zip(by_natural.get(block).and_then(Option::as_ref))
+        {
+            let sigma = self.sources.sigmas[Source::NaturalCurvature as usize] / self.rod.units().length;
+            add(curve.count() + i, response, sigma);
+        }
+        if let Some(i) = number(Source::Length) {
             let sigma = self.sources.sigmas[Source::Length as usize];
             for (by, contact) in by.iter_mut().zip(&state.contacts) {
                 by.by_length = Some((curve.count() + i, Vector2::new(contact.x, contact.y) * sigma));
@@ -439,13 +497,14 @@ impl<R: PhysicalRod> Fit<'_, R> {
             if !self.asked[k] || state.is_none() && !self.is_free(k, states) {
                 return None;
             }
-            let (here, model) = (&corrected[k], means[k].unwrap_or_else(|| self.reactions(state)));
+            let (here, model) = (&corrected[k], means[k].unwrap_or_else(|| self.reactions(k, at)));
             let mut by: [Vec<(usize, f64)>; 3] = Default::default();
             let touching = state.filter(|state| !state.contacts.is_empty());
             let Rates { by_pose, by_offsets } = match touching {
                 Some(state) => self.rates(at, state)?,
                 None => Rates::default(),
             };
+            let by_natural = at.reactions_by_natural(k, self.rod.units());
             let residual = here.residual(&model, &by_pose, block);
             let without = here.residual(&here.reactions, &by_pose, block);
             for (i, rate) in by_offsets {
@@ -455,7 +514,13 @@ impl<R: PhysicalRod> Fit<'_, R> {
             for (i, there) in self.with_steps(block, &stepped) {
                 let (from, to) = (here.pose, there.pose);
                 let moved = Vector3::new(to.x - from.x, to.y - from.y, to.phi - from.phi);
-                let rate = (there.residual(&(model + by_pose * moved), &by_pose, block) - residual) / STEP;
+                let bent = match self.sources.free[i].source {
+                    Source::NaturalCurvature => {
+                        by_natural * (self.sources.sigmas[Source::NaturalCurvature as usize] * STEP)
+                    }
+                    _ => Vector3::zeros(),
+                };
+                let rate = (there.residual(&(model + by_pose * moved + bent), &by_pose, block) - residual) / STEP;
                 (0..3).for_each(|c| by[c].push((first + i, rate[c])));
             }
             Some(Row { residual, by })

@@ -1,7 +1,9 @@
 #![expect(clippy::print_stdout, reason = "prints the numbers that the page on reconstruction names")]
 
 use super::{ContourFit, FitError, ShapeKind, fit_contour, fit_contours};
-use crate::{Ar1, Budget, Label, NoiseModel, Reconstruction, Settings, Source, disturb, reconstruct_passes};
+use crate::{
+    Ar1, Budget, Label, NoiseModel, Reconstruction, Settings, Source, disturb, reconstruct_general, reconstruct_passes,
+};
 use rod_contact::{ClampPath, State, Sweep};
 use rod_contours::{CircularArc, Composite, Contour, Parabola};
 use rod_core::{Pose, Reactions, Rod, Sample};
@@ -190,6 +192,42 @@ fn shared_errors_come_out_with_the_contour() {
     }
     let (all, right) = several(&fit, &states);
     assert!(right * 100 > 95 * all, "{right} of {all}");
+}
+
+/// A sensor that is not tared, beside a clamp at a wrong angle, holds a rod that tapers to half its diameter and is not quite straight.
+#[test]
+fn shared_errors_of_a_cone_come_out_with_the_contour() {
+    let given = [
+        (Source::BiasF0x, 0.004),
+        (Source::BiasF0y, -0.003),
+        (Source::BiasM0z, 2e-4),
+        (Source::DriftF0y, 0.003),
+        (Source::GainF0x, 0.008),
+        (Source::ClampAngle, 0.007),
+        (Source::NaturalCurvature, 0.03),
+    ];
+    let truth = |source: Source| given.iter().find(|one| one.0 == source).map_or(0.0, |one| one.1);
+    let cone = Rod::tapered(0.1, 0.6e-3, 0.3e-3, 206e9).unwrap();
+    let at_clamp = Rod::from_diameter(0.1, 0.6e-3, 206e9).unwrap();
+    let disc = CircularArc::new([0.0, 0.015], 0.015, 0.0, std::f64::consts::TAU).unwrap();
+    let disc = Composite::single(disc).unwrap();
+    let clamp = |x| Pose { x, y: -0.045, phi: std::f64::consts::FRAC_PI_2 };
+    let swept = cone.clone().with_natural_curvature(truth(Source::NaturalCurvature) / 0.1).unwrap();
+    let states =
+        Sweep::new(&swept, &disc, ClampPath::new(clamp(0.1), clamp(-0.1)).unwrap(), 4e-4).unwrap().run().states;
+    let (_, mut disturbed) = disturb(&at_clamp, &samples(&states), truth).unwrap();
+    noisy(&mut disturbed, 0);
+    let settings = Settings { budget: None, ..AS_IS };
+    let mut found = reconstruct_general(&cone, &disturbed, &settings).unwrap();
+    let fit = fit_contour(&cone, &disturbed, &found).unwrap();
+    assert!(fit.goodness.explains && fit.errors.len() >= 3, "{:?} {:?}", fit.goodness, fit.errors);
+    for (source, value, sigma) in &fit.errors {
+        let off = (value - truth(*source)) / sigma;
+        println!("{source}: {value:.2e} +- {sigma:.1e}, {off:.1} standard deviations off");
+        assert!(off.abs() < 4.0, "{source}: {value} +- {sigma}, {off} standard deviations off");
+    }
+    found.adopt(&fit, &settings);
+    answers_are_true(&found, &states, 0.85);
 }
 
 /// All of 26 errors moved the contour by as much as noise and their budgets let them.

@@ -13,7 +13,7 @@ use crate::systematic::{
     Budget, Calibration, CalibrationScan, Correction, Errors, Known, RemainingErrors, Source, SourceEstimate,
     calibrate, log_likelihood,
 };
-use rod_core::{Rod, Sample, Uniform, Units};
+use rod_core::{Rod, Sample, Units};
 
 /// Steps of the reactions, in EI/L^2 and EI/L, from which on they hide transitions: those of a contact that begins are no larger.
 const COARSE: f64 = 0.02;
@@ -40,27 +40,32 @@ pub(super) struct Calibrated {
 }
 
 impl Calibrated {
-    /// From the samples of one path of the clamp.
-    pub fn of(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Self, ReconstructError> {
-        let scan = Self::measured(&Uniform, rod, samples, settings)?;
+    /// From the samples of one path of the clamp; `given` is a rod of the same units as `rod`.
+    pub fn of<I: Inverse>(
+        rod: &I,
+        given: &Rod,
+        samples: &[Sample],
+        settings: &Settings,
+    ) -> Result<Self, ReconstructError> {
+        let scan = Self::measured(rod, given, samples, settings)?;
         if settings.friction != Friction::None {
-            let without = log_likelihood(&scan.scan(rod), &allowed(rod, settings)?, &settings.known);
-            let mut rough = scan.clone().rough(rod, settings)?;
+            let without = log_likelihood(&scan.scan(rod, given), &allowed::<I>(given, settings)?, &settings.known);
+            let mut rough = scan.clone().rough(rod, given, settings)?;
             rough.friction = rough.compared_with(without);
             if let Friction::Known { mu, sigma } = settings.friction {
-                rough = rough.against_alone(scan.rough(rod, &alone(settings))?.friction, mu, sigma);
+                rough = rough.against_alone(scan.rough(rod, given, &alone(settings))?.friction, mu, sigma);
             }
             return Ok(rough);
         }
-        let smooth = scan.clone().smooth(rod, settings)?;
+        let smooth = scan.clone().smooth(rod, given, settings)?;
         let shows_friction =
-            |tare: Option<&Correction>| shows_friction(&Uniform, &scan.track, &scan.noise, &scan.places, tare);
+            |tare: Option<&Correction>| shows_friction(rod, &scan.track, &scan.noise, &scan.places, tare);
         // a bias blurs the plateau
-        if !shows_friction(None) && !smooth.tare(rod).is_some_and(|tare| shows_friction(Some(&tare))) {
+        if !shows_friction(None) && !smooth.tare(given).is_some_and(|tare| shows_friction(Some(&tare))) {
             return Ok(smooth);
         }
         let without = smooth.calibration.as_ref().map(|found| found.1.log_likelihood);
-        Ok(Self { friction: scan.rough(rod, settings)?.compared_with(without), ..smooth })
+        Ok(Self { friction: scan.rough(rod, given, settings)?.compared_with(without), ..smooth })
     }
 
     /// The correction of bias and drift alone; none where nothing was subtracted.
@@ -70,18 +75,19 @@ impl Calibrated {
     }
 
     /// Without friction, and without the errors that all samples share.
-    pub fn smooth(self, rod: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
-        Ok(self.subtract_shared_errors(rod, &allowed(rod, settings)?, &settings.known))
+    pub fn smooth<I: Inverse>(self, rod: &I, given: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
+        Ok(self.subtract_shared_errors(rod, given, &allowed::<I>(given, settings)?, &settings.known))
     }
 
     /// With friction that is known or estimated, and without the errors that all samples share.
-    pub fn rough(self, rod: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
-        let budget = with_friction(allowed(rod, settings)?, settings);
-        Ok(self.with_plateau_friction(&Uniform, settings).subtract_shared_errors(rod, &budget, &settings.known))
+    pub fn rough<I: Inverse>(self, rod: &I, given: &Rod, settings: &Settings) -> Result<Self, ReconstructError> {
+        let budget = with_friction(allowed::<I>(given, settings)?, settings);
+        let scan = self.with_plateau_friction(rod, settings);
+        Ok(scan.subtract_shared_errors(rod, given, &budget, &settings.known))
     }
 
     /// The scan with friction that is known or estimated from its plateau.
-    pub fn with_plateau_friction<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
+    fn with_plateau_friction<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
         let mu = if let Friction::Known { mu, .. } = settings.friction { Some(mu) } else { None };
         let (PlateauFriction { mu, sigma, scatter, spread, against, likelihood, without }, places) =
             plateau_friction(rod, &self.track, &self.noise, self.places, mu);
@@ -89,22 +95,6 @@ impl Calibrated {
         let gain = likelihood - without;
         let found = FrictionEstimate { mu, sigma, sigma_of_noise: sigma, scatter, spread, gain, against, alone: None };
         Self { track, places, friction: Some(found), ..self }
-    }
-
-    /// With friction that is known, or as the plateau tells it where that is to be estimated; where it is not, what the plateau tells.
-    pub fn with_plateau<I: Inverse>(self, rod: &I, settings: &Settings) -> Self {
-        match settings.friction {
-            Friction::None if !shows_friction(rod, &self.track, &self.noise, &self.places, None) => self,
-            Friction::None => {
-                let friction = self.clone().with_plateau_friction(rod, settings).friction;
-                Self { friction, ..self }
-            }
-            Friction::Known { mu, sigma } => {
-                let free = self.clone().with_plateau_friction(rod, &alone(settings)).friction;
-                self.with_plateau_friction(rod, settings).against_alone(free, mu, sigma)
-            }
-            Friction::Estimate => self.with_plateau_friction(rod, settings),
-        }
     }
 
     /// With what the scan tells of friction on its own, where a coefficient of this standard deviation was given.
@@ -122,13 +112,20 @@ impl Calibrated {
         self.friction.map(|found| FrictionEstimate { gain: gain.unwrap_or(found.gain), ..found })
     }
 
-    fn scan<'a>(&'a self, rod: &'a Rod) -> CalibrationScan<'a> {
-        CalibrationScan { rod, track: &self.track, noise: &self.noise, breaks: &self.breaks, places: &self.places }
+    fn scan<'a, I>(&'a self, inverse: &'a I, rod: &'a Rod) -> CalibrationScan<'a, I> {
+        CalibrationScan {
+            inverse,
+            rod,
+            track: &self.track,
+            noise: &self.noise,
+            breaks: &self.breaks,
+            places: &self.places,
+        }
     }
 
     /// Estimates the errors that all samples share, and subtracts those that the scan needs.
-    fn subtract_shared_errors(mut self, rod: &Rod, budget: &Budget, known: &Known) -> Self {
-        let found = calibrate(&self.scan(rod), budget, known);
+    fn subtract_shared_errors<I: Inverse>(mut self, inverse: &I, rod: &Rod, budget: &Budget, known: &Known) -> Self {
+        let found = calibrate(&self.scan(inverse, rod), budget, known);
         let Self { track, noise, breaks, places, units, calibration, friction, .. } = &mut self;
         let plateau = track.friction;
         if let Some((correction, shared, mut report)) = found {
@@ -137,18 +134,18 @@ impl Calibrated {
                 let explained = !report.sources.iter().any(SourceEstimate::is_beyond);
                 let mu = plateau + report.source(Source::Friction).map_or(0.0, |estimate| estimate.taken);
                 if let Some(found) = friction.as_mut().filter(|_| explained) {
-                    (found.scatter, found.spread) = flatness(&Uniform, track, noise, places, &correction, mu);
+                    (found.scatter, found.spread) = flatness(inverse, track, noise, places, &correction, mu);
                 }
                 *track = correction.track(track);
                 if report.is_applied() {
-                    *places = evaluate_places(&Uniform, track, noise, breaks);
+                    *places = evaluate_places(inverse, track, noise, breaks);
                 } else {
                     places.iter_mut().for_each(|place| place.fit.set_friction(track.friction));
                 }
                 *units = report.rod(rod).units();
             }
             shared.weaken_breaks(places);
-            shared.update_evidence(&Errors::zeros(), track, places);
+            shared.update_evidence(inverse, &Errors::zeros(), track, places);
             report.shift(Source::Friction, plateau);
             if let Some((found, own)) = friction.as_mut().zip(report.source(Source::Friction).copied()) {
                 report.direction = found.mu.signum() * (0.5 - found.against).signum();
@@ -210,10 +207,14 @@ fn alone(settings: &Settings) -> Settings {
 }
 
 /// The budget but for friction, if it and what is known are possible.
-fn allowed(rod: &Rod, settings: &Settings) -> Result<Budget, ReconstructError> {
+fn allowed<I: Inverse>(rod: &Rod, settings: &Settings) -> Result<Budget, ReconstructError> {
     let budget = settings.budget.unwrap_or_else(|| Budget::laboratory(rod));
     possible(&budget, &settings.known)?;
-    Ok(budget)
+    // another rod than the uniform one is bent at rest as its model says
+    match settings.known.of(Source::NaturalCurvature) {
+        Some(_) if !I::UNIFORM => Err(ReconstructError::NaturalCurvature),
+        _ => Ok(budget),
+    }
 }
 
 /// The budget with that of friction, of which nothing is known where it is not asked for.

@@ -163,7 +163,7 @@ fn of_longest<'a>(rod: &Rod, samples: &'a [Sample], settings: &Settings) -> Opti
     let settings = Settings { noise: Some(noise(part, settings)), ..*settings };
     let scan = Calibrated::measured(&Uniform, rod, part, &settings).ok()?;
     let rubs = settings.friction != Friction::None;
-    let scan = if rubs { scan.rough(rod, &settings) } else { scan.smooth(rod, &settings) };
+    let scan = if rubs { scan.rough(&Uniform, rod, &settings) } else { scan.smooth(&Uniform, rod, &settings) };
     let (track, calibration) = scan.ok().map(|scan| (scan.track, scan.calibration))?;
     let calibration = calibration?.1;
     calibration.log_likelihood.is_finite().then_some((calibration, part, track.friction))

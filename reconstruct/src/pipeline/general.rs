@@ -6,7 +6,6 @@ use super::reconstruct::reconstruct_calibrated;
 use super::reconstruction::Reconstruction;
 use super::settings::{ReconstructError, Settings};
 use crate::point::Any;
-use crate::systematic::Budget;
 use rod_core::{PhysicalRod, Rod, Sample};
 
 /// [`reconstruct_passes`](crate::reconstruct_passes) for any rod on any clamp: tapered, of sections, bent at rest, on springs. The poses
@@ -18,9 +17,8 @@ use rod_core::{PhysicalRod, Rod, Sample};
 /// contacts that explain the reactions tell which it is. A part that neither explains has the label that the phases before and after
 /// suggest, and no contact points ([`Unresolved`](crate::Unresolved)): so it is where BB turns into BA and noise hides that kink.
 ///
-/// What is not given: errors that all samples share, such as a bias. Nothing is taken off, and no covariance contains them: subtract the
-/// bias of the free rod beforehand. Where they exceed the noise, criteria contradict labels, such points are not given, and
-/// [`findings`](crate::Reconstruction::findings) tell of it.
+/// Errors that all samples share are estimated, taken off, and part of the covariances as for the uniform rod, but for one of its natural
+/// curvature, which [`fit_contour`](crate::fit_contour) alone estimates. An error of the length stretches the rod as a whole, and one of the stiffness is the same all along it.
 ///
 /// Accuracy: on noise-free samples single contact points are exact to 1e-9 of the rod's length, and so is the first of two contacts to 1e-8. The
 /// second one is within 1e-8 of the contour; along it, 1e-6. In noise, each has its covariance.
@@ -36,15 +34,12 @@ use rod_core::{PhysicalRod, Rod, Sample};
 /// ```
 ///
 /// # Errors
-/// [`ReconstructError`]; [`ReconstructError::NotUniform`] where settings tell of errors that all samples share.
+/// [`ReconstructError`].
 pub fn reconstruct_general<R: PhysicalRod>(
     rod: &R,
     samples: &[Sample],
     settings: &Settings,
 ) -> Result<Reconstruction, ReconstructError> {
-    if !settings.known.is_nothing() || settings.budget.is_some_and(|budget| budget != Budget::NONE) {
-        return Err(ReconstructError::NotUniform);
-    }
     let units = rod.units();
     let stiffness = units.force * units.length * units.length;
     let what = "stiffness of the rod at its clamp";
@@ -52,7 +47,7 @@ pub fn reconstruct_general<R: PhysicalRod>(
         Rod::new(units.length, stiffness).map_err(|_| ReconstructError::Setting { what, value: stiffness })?;
     let inverse = Any(rod);
     each_pass(&uniform, samples, |pass| {
-        let scan = Calibrated::measured(&inverse, &uniform, pass, settings)?.with_plateau(&inverse, settings);
+        let scan = Calibrated::of(&inverse, &uniform, pass, settings)?;
         Ok(reconstruct_calibrated(&inverse, units, pass, scan, settings))
     })
 }

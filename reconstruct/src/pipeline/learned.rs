@@ -38,7 +38,7 @@ impl Learned {
 
     /// Gives a place the evidence of corrected samples, with the errors that are left in its standard deviations.
     pub fn judge(&self, tau: f64, place: &mut Place) {
-        let evidence = self.shared.evidence(&self.subtracted, tau, place, &mut None, PLACES);
+        let evidence = self.shared.evidence(&Uniform, &self.subtracted, tau, place, &mut None, PLACES);
         place.set_evidence(evidence.weak());
     }
 
@@ -63,8 +63,15 @@ impl Learned {
             Some((index, of, found)) if index == place.index && of == label => found,
             _ => {
                 let corrected = measured.moved(here.0, here.1);
-                let found =
-                    point_covariance(&self.remaining, tau, &corrected, &covariance, label, &self.shared.factor, 0.0);
+                let found = point_covariance(
+                    &Uniform,
+                    &self.remaining,
+                    tau,
+                    &corrected,
+                    &covariance,
+                    label,
+                    (&self.shared.factor, 0.0),
+                );
                 let earlier = self.point.filter(|point| point.1 == label).map(|point| point.2);
                 let found = found.or(earlier).ok_or(Reason::Unshared)?;
                 self.point = Some((place.index, label, found));

@@ -28,7 +28,13 @@ use rod_core::{Rod, Sample, Uniform, Units};
 /// # Errors
 /// [`ReconstructError`].
 pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Reconstruction, ReconstructError> {
-    Ok(reconstruct_calibrated(&Uniform, rod.units(), samples, Calibrated::of(rod, samples, settings)?, settings))
+    Ok(reconstruct_calibrated(
+        &Uniform,
+        rod.units(),
+        samples,
+        Calibrated::of(&Uniform, rod, samples, settings)?,
+        settings,
+    ))
 }
 
 /// The labels and contact points of a scan; `given` are the units of the rod as it was given.
@@ -42,8 +48,8 @@ pub(super) fn reconstruct_calibrated<I: Inverse>(
     let Calibrated { track, indices, found, kinks, noise, steps, breaks, places, units, calibration, friction } = scan;
     let phases = identify_phases(rod, &track, &noise, places);
     let shared = calibration.as_ref().map(|calibration| &calibration.0);
-    let systematic =
-        shared.map_or_else(Vec::new, |shared| shared.point_covariances(&track, &noise, &phases.places, &phases.labels));
+    let systematic = shared
+        .map_or_else(Vec::new, |shared| shared.point_covariances(rod, &track, &noise, &phases.places, &phases.labels));
     let answers = Answers {
         rod,
         track: &track,

@@ -74,11 +74,9 @@ pub enum ReconstructError {
         /// The number that is wrong.
         value: f64,
     },
-    /// Errors that all samples share are to be taken off a scan of a rod of which they are not known.
-    #[error(
-        "systematic errors are estimated for uniform rods only, expected `known` empty and the budget none, or `Budget::NONE`"
-    )]
-    NotUniform,
+    /// A natural curvature is known besides that which the model of the rod has.
+    #[error("a natural curvature is known besides that of the rod's model, expected it in the model alone")]
+    NaturalCurvature,
     /// A setting that is not possible.
     #[error("{what} is {value}, expected a positive, finite number")]
     Setting {

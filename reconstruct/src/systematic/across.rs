@@ -46,7 +46,7 @@ pub fn influences(
     let one = |number: usize, label: Label, TrackIndex(index): TrackIndex| {
         let clamp = track.clamps[index];
         let estimate = LocalEstimate::exact(clamp, still(motion(&track, index)));
-        let (by, _) = point_derivatives(&around, track.tau[index], &estimate, &noise, label)?;
+        let (by, _) = point_derivatives(&Uniform, &around, track.tau[index], &estimate, &noise, label)?;
         let alpha = constrained_contact(&Uniform, &clamp, &noise, label).ok()?.alpha;
         let across = |k: usize| alpha.cos() * by[(1, k)] - alpha.sin() * by[(0, k)];
         let by = std::array::from_fn(|k| across(k) * units.length / Source::ALL[k].unit(rod));

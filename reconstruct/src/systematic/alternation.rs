@@ -6,6 +6,7 @@ use super::estimate_errors::{ErrorEstimate, LabelledPlace, Prior, estimate_error
 use super::remaining::RemainingErrors;
 use super::source::{Errors, Joint, SOURCES};
 use crate::phase::{CRITERIA, Criterion, Label, Place, label_log_likelihood, most_likely_labels};
+use crate::point::Inverse;
 use crate::scan::Track;
 
 /// Most turns of labelling and estimating.
@@ -14,8 +15,8 @@ const TURNS: usize = 6;
 pub(super) const RAISED: f64 = 3.0;
 
 /// The alternating estimation of labels and errors at these places of a scan.
-#[derive(Clone, Copy)]
-pub(super) struct Alternation<'a> {
+pub(super) struct Alternation<'a, I> {
+    pub rod: &'a I,
     pub frame: Frame,
     pub track: &'a Track,
     pub places: &'a [Place],
@@ -49,7 +50,7 @@ pub(super) fn raise(prior: &mut Prior, errors: &Errors, raised: &mut [bool; SOUR
     any
 }
 
-impl Alternation<'_> {
+impl<I: Inverse> Alternation<'_, I> {
     /// The likelier result of two starts: the recording as it is, and any recording within the budget. From the second one a scan
     /// with large errors is labelled; with it alone, wrong labels of a good scan might agree with large errors.
     pub fn run(&self, prior: &Prior, tared: &ErrorEstimate) -> LabelsAndErrors {
@@ -65,9 +66,10 @@ impl Alternation<'_> {
         self.remaining(&estimate).weaken_breaks(&mut places);
         let mut before: Vec<(Label, f64)> = Vec::new();
         for _ in 0..TURNS {
-            self.remaining(&estimate).update_evidence(&estimate.errors, self.track, &mut places);
+            self.remaining(&estimate).update_evidence(self.rod, &estimate.errors, self.track, &mut places);
             let now = most_likely_labels(&places, false);
             estimate = estimate_errors(
+                self.rod,
                 self.frame,
                 &prior,
                 &estimate.errors,
@@ -91,10 +93,17 @@ impl Alternation<'_> {
         let mut places = self.places.to_vec();
         let remaining = self.remaining(&found.estimate);
         remaining.weaken_breaks(&mut places);
-        remaining.update_evidence(&found.estimate.errors, self.track, &mut places);
+        remaining.update_evidence(self.rod, &found.estimate.errors, self.track, &mut places);
         let labelled = self.labelled_places(&most_likely_labels(&places, false));
-        let estimate =
-            estimate_errors(self.frame, &found.prior, &found.estimate.errors, &labelled, &self.least, self.steps);
+        let estimate = estimate_errors(
+            self.rod,
+            self.frame,
+            &found.prior,
+            &found.estimate.errors,
+            &labelled,
+            &self.least,
+            self.steps,
+        );
         self.log_likelihood(&estimate, given, places)
     }
 
@@ -111,7 +120,7 @@ impl Alternation<'_> {
     /// The log-likelihood with exactly these errors: no remaining ones widen the evidence.
     fn log_likelihood(&self, estimate: &ErrorEstimate, given: &Prior, mut places: Vec<Place>) -> f64 {
         let exact = RemainingErrors { factor: Joint::zeros(), scatter: self.least, ..self.remaining(estimate) };
-        exact.update_evidence(&estimate.errors, self.track, &mut places);
+        exact.update_evidence(self.rod, &estimate.errors, self.track, &mut places);
         let square = |k: usize| {
             let sigma = given.sigmas[k];
             if sigma > 0.0 { ((estimate.errors[k] - given.means[k]) / sigma).powi(2) } else { 0.0 }

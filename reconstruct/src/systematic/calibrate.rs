@@ -12,9 +12,10 @@ use super::known::Known;
 use super::remaining::{PLACES, RemainingErrors};
 use super::source::{Errors, Joint, SOURCES, Source};
 use crate::phase::{Break, CRITERIA, Criterion, Label, Place};
+use crate::point::Inverse;
 use crate::scan::{Noise, Track};
 use nalgebra::{DMatrix, SymmetricEigen, Vector3};
-use rod_core::Rod;
+use rod_core::{Rod, Uniform};
 use std::ops::Range;
 
 /// [`PLACES`] where the likelihood alone is asked for, up to the last turn. Fewer: the labels of this turn may not be the likeliest.
@@ -31,7 +32,9 @@ const SIGNIFICANT: f64 = 60.0;
 const UNLIKE: f64 = 100.0;
 
 /// A scan whose labels and shared errors are to be found.
-pub(crate) struct CalibrationScan<'a> {
+pub(crate) struct CalibrationScan<'a, I> {
+    pub inverse: &'a I,
+    /// A uniform rod of the same units.
     pub rod: &'a Rod,
     pub track: &'a Track,
     pub noise: &'a Noise,
@@ -40,8 +43,8 @@ pub(crate) struct CalibrationScan<'a> {
 }
 
 /// The correction of a scan, if it needs one; the remaining errors; and the report. None without a budget where nothing is known.
-pub(crate) fn calibrate(
-    scan: &CalibrationScan<'_>,
+pub(crate) fn calibrate<I: Inverse>(
+    scan: &CalibrationScan<'_, I>,
     budget: &Budget,
     known: &Known,
 ) -> Option<(Option<Correction>, RemainingErrors, Calibration)> {
@@ -55,7 +58,7 @@ pub(crate) fn calibrate(
     let LabelsAndErrors { estimate: found, prior, raised, labels, likelihood } =
         alternation.run(&prior, &tare_estimate);
     let last = alternation.labelled_places(&labels);
-    let taken = sparsest_correction(frame, &prior, &found, &last, &alternation.least);
+    let taken = sparsest_correction(scan.inverse, frame, &prior, &found, &last, &alternation.least);
     let free = free.into_iter().filter(|range| are_free(range, &places, &labels)).collect();
     let calibration = Calibration {
         log_likelihood: likelihood,
@@ -73,7 +76,7 @@ pub(crate) fn calibrate(
 
 /// The logarithm of the likelihood alone, from few places up to the last turn. On O1 at q = 0.4 in noise it differs from that of
 /// [`calibrate`] by 0.04 without friction, by 1.4 with mu = 0.1 (a gain of 48), and by 121 with mu = 0.3 (a gain of 1,414).
-pub(crate) fn log_likelihood(scan: &CalibrationScan<'_>, budget: &Budget, known: &Known) -> Option<f64> {
+pub(crate) fn log_likelihood<I: Inverse>(scan: &CalibrationScan<'_, I>, budget: &Budget, known: &Known) -> Option<f64> {
     if budget.is_none() && known.is_nothing() {
         return None;
     }
@@ -88,7 +91,7 @@ pub(crate) fn log_likelihood(scan: &CalibrationScan<'_>, budget: &Budget, known:
     Some(quick(&all).0.log_likelihood_after_turn(&prior, &alternation.run(&prior, &tare_estimate)))
 }
 
-impl CalibrationScan<'_> {
+impl<I: Inverse> CalibrationScan<'_, I> {
     /// The prior of the errors, and the stretches in which the rod is free.
     fn prior_and_free_stretches(&self, frame: Frame, budget: &Budget, known: &Known) -> (Prior, Vec<Range<usize>>) {
         let Self { rod, track, noise, breaks, .. } = *self;
@@ -108,15 +111,17 @@ impl CalibrationScan<'_> {
         prior: &Prior,
         free: &[Range<usize>],
         places: &'a [Place],
-    ) -> (Alternation<'a>, ErrorEstimate) {
+    ) -> (Alternation<'a, I>, ErrorEstimate) {
         let in_free = |place: &Place| free.iter().any(|range| range.contains(&place.index));
         let inside: Vec<Place> = places.iter().filter(|place| in_free(place)).cloned().collect();
-        let mut alternation = Alternation { frame, track: self.track, places, least: [1.0; CRITERIA], steps: STEPS };
+        let rod = self.inverse;
+        let mut alternation =
+            Alternation { rod, frame, track: self.track, places, least: [1.0; CRITERIA], steps: STEPS };
         let tare =
             Alternation { places: &inside, ..alternation }.labelled_places(&vec![(Label::Free, 1.0); inside.len()]);
-        let mut tare_estimate = estimate_errors(frame, prior, &prior.means, &tare, &alternation.least, STEPS);
+        let mut tare_estimate = estimate_errors(rod, frame, prior, &prior.means, &tare, &alternation.least, STEPS);
         if tare_estimate.scatter[..3].iter().any(|times| *times > UNLIKE) {
-            tare_estimate = estimate_errors(frame, prior, &prior.means, &[], &alternation.least, STEPS);
+            tare_estimate = estimate_errors(rod, frame, prior, &prior.means, &[], &alternation.least, STEPS);
         } else {
             alternation.least = smallest_scatter(frame, &tare_estimate, &tare);
         }
@@ -150,18 +155,18 @@ pub(crate) fn calibrate_labelled(
     let frame = Frame::of(track)?.on_way(WAY);
     let means = known.means(rod);
     let mut prior = Prior { means, sigmas: known.deviations(&deviations(budget, rod), rod) };
-    let mut alternation = Alternation { frame, track, places, least: [1.0; CRITERIA], steps: STEPS };
+    let mut alternation = Alternation { rod: &Uniform, frame, track, places, least: [1.0; CRITERIA], steps: STEPS };
     let labelled = alternation.labelled_places(labels);
-    let mut found = estimate_errors(frame, &prior, &means, &labelled, &alternation.least, STEPS);
+    let mut found = estimate_errors(&Uniform, frame, &prior, &means, &labelled, &alternation.least, STEPS);
     let free: Vec<LabelledPlace> =
         alternation.labelled_places(labels).into_iter().filter(|place| place.label == Label::Free).collect();
     alternation.least = smallest_scatter(frame, &found, &free);
     let mut raised = [false; SOURCES];
-    found = estimate_errors(frame, &prior, &found.errors, &labelled, &alternation.least, STEPS);
+    found = estimate_errors(&Uniform, frame, &prior, &found.errors, &labelled, &alternation.least, STEPS);
     if raise(&mut prior, &found.errors, &mut raised) {
-        found = estimate_errors(frame, &prior, &found.errors, &labelled, &alternation.least, STEPS);
+        found = estimate_errors(&Uniform, frame, &prior, &found.errors, &labelled, &alternation.least, STEPS);
     }
-    let taken = sparsest_correction(frame, &prior, &found, &labelled, &alternation.least);
+    let taken = sparsest_correction(&Uniform, frame, &prior, &found, &labelled, &alternation.least);
     let calibration = calibration_report(rod, &prior, &raised, &found, &taken, Vec::new());
     let (factor, rates) = (remaining_factor(&found, &taken), alternation.rates());
     Some((taken, RemainingErrors { frame, factor, scatter: found.scatter, rates }, calibration))
@@ -204,7 +209,8 @@ fn thin_places(places: &[Place], most: usize) -> Vec<Place> {
 
 /// The sparsest correction that explains the places: the prior means alone, or tare and drift and then one source after the other, each
 /// the one that explains most of the residual.
-fn sparsest_correction(
+fn sparsest_correction<I: Inverse>(
+    rod: &I,
     frame: Frame,
     prior: &Prior,
     found: &ErrorEstimate,
@@ -212,7 +218,7 @@ fn sparsest_correction(
     least: &[f64; CRITERIA],
 ) -> Errors {
     let Prior { means, sigmas } = prior;
-    let with = |errors: &Errors| misfit_of(frame, sigmas, errors, found, places);
+    let with = |errors: &Errors| misfit_of(rod, frame, sigmas, errors, found, places);
     let least_misfit = with(&found.errors);
     let is_enough = |errors: &Errors| with(errors) - least_misfit < SIGNIFICANT;
     if is_enough(means) {
@@ -229,7 +235,7 @@ fn sparsest_correction(
         let only = Errors::from_fn(|k, _| if free[k] { sigmas[k] } else { 0.0 });
         let only = Prior { sigmas: only, ..*prior };
         let taken =
-            estimate_errors(frame, &only, &restricted_estimate(found, prior, &free), places, least, STEPS).errors;
+            estimate_errors(rod, frame, &only, &restricted_estimate(found, prior, &free), places, least, STEPS).errors;
         if is_enough(&taken) {
             return taken;
         }

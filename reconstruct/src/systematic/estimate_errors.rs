@@ -6,9 +6,9 @@ use super::source::{Errors, Joint, SOURCES, Source};
 use crate::least_squares::{Iterate, Loss, Problem, Rows, WholeSteps, iterate};
 use crate::numeric::{median, robust_sigma};
 use crate::phase::{CRITERIA, Criterion, Evidence, Label};
+use crate::point::Inverse;
 use crate::scan::LocalEstimate;
 use nalgebra::{DMatrix, DVector, SVector};
-use rod_core::Uniform;
 
 /// Most Gauss-Newton steps, for a result; each weighs the residuals anew.
 pub(super) const STEPS: usize = 8;
@@ -70,7 +70,13 @@ struct Residual {
 }
 
 /// The residuals of the places after a correction by `errors`. Derivatives are by errors in units of `sigmas`.
-fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[LabelledPlace]) -> Vec<Residual> {
+fn residuals<I: Inverse>(
+    rod: &I,
+    frame: Frame,
+    errors: &Errors,
+    sigmas: &Errors,
+    places: &[LabelledPlace],
+) -> Vec<Residual> {
     // the reactions of a free rod are what the sensor shows without load, whatever gains, stiffness and the others are
     let without_load = errors.map_with_location(|k, _, error| if k < WITHOUT_LOAD { error } else { 0.0 });
     let all = CorrectionDifferences::new(frame, errors, |k| sigmas[k] > 0.0);
@@ -88,12 +94,12 @@ fn residuals(frame: Frame, errors: &Errors, sigmas: &Errors, places: &[LabelledP
         // neither a free rod nor several contacts tell of the zero of the moment
         let zeros = !matches!(place.label, Label::Free | Label::BB);
         let evidence = if zeros {
-            Evidence::of(&Uniform, &estimate)
+            Evidence::of(rod, &estimate)
         } else {
-            Evidence::of_sample(&Uniform, &estimate.clamp, &estimate.covariance().diagonal())
+            Evidence::of_sample(rod, &estimate.clamp, &estimate.covariance().diagonal())
         };
         let quantities = evidence.quantities();
-        let by = criteria_derivatives(&here, &around.input_derivatives(place.tau, &place.measured), zeros);
+        let by = criteria_derivatives(rod, &here, &around.input_derivatives(place.tau, &place.measured), zeros);
         for &criterion in conditions(place.label, evidence.again()) {
             let (c, quantity) = (criterion as usize, quantities[criterion as usize]);
             if !(quantity.sigma.is_finite() && quantity.value.is_finite()) {
@@ -164,7 +170,8 @@ pub(super) struct Prior {
 }
 
 /// The errors as a least-squares problem: their prior, and the residuals of the places with Cauchy's loss, whose scale is estimated with them.
-struct ErrorProblem<'a> {
+struct ErrorProblem<'a, I> {
+    rod: &'a I,
     frame: Frame,
     prior: &'a Prior,
     /// The sources that are not known exactly; the unknowns are these errors, in prior standard deviations off their means.
@@ -177,7 +184,7 @@ struct ErrorProblem<'a> {
     scatter: [f64; CRITERIA],
 }
 
-impl ErrorProblem<'_> {
+impl<I> ErrorProblem<'_, I> {
     /// The errors in prior standard deviations.
     fn prior_deviations(&self, x: &DVector<f64>) -> Errors {
         let mut z = Errors::zeros();
@@ -190,11 +197,11 @@ impl ErrorProblem<'_> {
     }
 }
 
-impl Problem for ErrorProblem<'_> {
+impl<I: Inverse> Problem for ErrorProblem<'_, I> {
     type Equations = Rows;
 
     fn equations(&mut self, x: &DVector<f64>) -> Rows {
-        self.residuals = residuals(self.frame, &self.errors(x), &self.prior.sigmas, self.places);
+        self.residuals = residuals(self.rod, self.frame, &self.errors(x), &self.prior.sigmas, self.places);
         self.scatter = scatters(&self.residuals);
         self.scatter.iter_mut().zip(self.least).for_each(|(scatter, least)| *scatter = scatter.max(*least));
         let count = self.free.len();
@@ -218,7 +225,8 @@ impl Problem for ErrorProblem<'_> {
 ///
 /// `least` are the smallest residuals of each criterion to be expected, in standard deviations of the noise, and `steps` the most
 /// Gauss-Newton steps.
-pub(super) fn estimate_errors(
+pub(super) fn estimate_errors<I: Inverse>(
+    rod: &I,
     frame: Frame,
     prior: &Prior,
     start: &Errors,
@@ -230,7 +238,7 @@ pub(super) fn estimate_errors(
     let free: Vec<usize> = (0..SOURCES).filter(|k| sigmas[*k] > 0.0).collect();
     let x = DVector::from_iterator(free.len(), free.iter().map(|k| (start[*k] - means[*k]) * (1.0 / sigmas[*k])));
     let mut problem =
-        ErrorProblem { frame, prior, free: &free, places, least, residuals: Vec::new(), scatter: [1.0; CRITERIA] };
+        ErrorProblem { rod, frame, prior, free: &free, places, least, residuals: Vec::new(), scatter: [1.0; CRITERIA] };
     let (Iterate { x, equations }, _) = iterate(&mut problem, x, WholeSteps::until(SMALL), steps);
     // R^T R is what budget and places tell of the errors
     let mut upper = Joint::identity();
@@ -251,12 +259,13 @@ pub(super) fn estimate_errors(
 }
 
 /// The robust sum of squares with these errors; residuals are expected to be as large as those that were found leave.
-pub(super) fn misfit_of(
+pub(super) fn misfit_of<I: Inverse>(
+    rod: &I,
     frame: Frame,
     sigmas: &Errors,
     errors: &Errors,
     found: &ErrorEstimate,
     places: &[LabelledPlace],
 ) -> f64 {
-    robust_sum_of_squares(&residuals(frame, errors, sigmas, places), &found.scatter)
+    robust_sum_of_squares(&residuals(rod, frame, errors, sigmas, places), &found.scatter)
 }

@@ -6,7 +6,6 @@ use crate::phase::{CRITERIA, Criterion, Label, constrained_contact};
 use crate::point::{Clamp, Inverse, MomentZero};
 use crate::scan::LocalEstimate;
 use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2, Vector3};
-use rod_core::Uniform;
 
 /// Pose, reactions, natural curvature, friction, and rates of pose and reactions.
 const INPUTS: usize = 14;
@@ -89,27 +88,32 @@ impl CorrectionDifferences {
 
 /// Derivatives of the criteria of a corrected place by the errors; 0 where a criterion is not known, and for those of the zero of the moment
 /// where these do not count (`zeros`).
-pub(super) fn criteria_derivatives(
+pub(super) fn criteria_derivatives<I: Inverse>(
+    rod: &I,
     place: &(Clamp, Clamp),
     by_errors: &SMatrix<f64, INPUTS, SOURCES>,
     zeros: bool,
 ) -> SMatrix<f64, CRITERIA, SOURCES> {
-    let is_bent = by_errors.row(NATURAL).iter().any(|by| *by != 0.0);
+    // another rod than the uniform one is bent at rest as its model says
+    let is_bent = I::UNIFORM && by_errors.row(NATURAL).iter().any(|by| *by != 0.0);
     let mut by_inputs = SMatrix::<f64, CRITERIA, INPUTS>::zeros();
     let [clamp, rate] = [&place.0, &place.1];
     for c in 0..3 {
         by_inputs[(c, REACTIONS + c)] = 1.0;
     }
     let (k, r) = (Criterion::K as usize, &clamp.reactions);
-    by_inputs.fixed_view_mut::<1, 3>(k, REACTIONS).copy_from(&clamp.criterion().1.transpose());
-    by_inputs[(k, NATURAL)] = -2.0 * r.z;
-    by_inputs[(k, FRICTION)] = -2.0 * r.x.hypot(r.y) * (1.0 + clamp.friction * clamp.friction).powf(-1.5);
-    if let Some(first) = Uniform.first(clamp).ok().filter(|_| zeros) {
-        let of = |clamp: &Clamp| Uniform.first(clamp).ok();
+    let first = if zeros || !I::UNIFORM { rod.first(clamp).ok() } else { None };
+    if let Some((_, by_reactions)) = rod.criterion(clamp, first.as_ref()) {
+        by_inputs.fixed_view_mut::<1, 3>(k, REACTIONS).copy_from(&by_reactions.transpose());
+        by_inputs[(k, NATURAL)] = if I::UNIFORM { -2.0 * r.z } else { 0.0 };
+        by_inputs[(k, FRICTION)] = -2.0 * r.x.hypot(r.y) * (1.0 + clamp.friction * clamp.friction).powf(-1.5);
+    }
+    if let Some(first) = first.filter(|_| zeros) {
+        let of = |clamp: &Clamp| rod.first(clamp).ok();
         let by = moment_zero_derivatives(clamp, rate, &first, is_bent, of);
         by_inputs.fixed_rows_mut::<3>(Criterion::Length as usize).copy_from(&by);
-        if let Some(later) = Uniform.by_tip(&first, clamp) {
-            let of = |clamp: &Clamp| Uniform.by_tip(&Uniform.first(clamp).ok()?, clamp);
+        if let Some(later) = rod.by_tip(&first, clamp) {
+            let of = |clamp: &Clamp| rod.by_tip(&rod.first(clamp).ok()?, clamp);
             let by = moment_zero_derivatives(clamp, rate, &later, is_bent, of);
             by_inputs.fixed_rows_mut::<3>(Criterion::LengthByTip as usize).copy_from(&by);
         }
@@ -173,16 +177,16 @@ pub(super) fn variances(by_errors: &SMatrix<f64, CRITERIA, SOURCES>, factor: &Jo
 
 /// The covariance of the contact point at a place of phase A or B that errors with this factor of their covariance cause,
 /// dimensionless, with `misfit` times that of the noise. The place is corrected. None where there is no contact point.
-pub(crate) fn point_covariance(
+pub(crate) fn point_covariance<I: Inverse>(
+    rod: &I,
     around: &CorrectionDifferences,
     tau: f64,
     measured: &LocalEstimate,
     noise: &Matrix3<f64>,
     label: Label,
-    factor: &Joint,
-    misfit: f64,
+    (factor, misfit): (&Joint, f64),
 ) -> Option<Matrix2<f64>> {
-    let (by_errors, by_reactions) = point_derivatives(around, tau, measured, noise, label)?;
+    let (by_errors, by_reactions) = point_derivatives(rod, around, tau, measured, noise, label)?;
     let spread = by_errors * factor;
     let covariance = spread * spread.transpose() + by_reactions * noise * by_reactions.transpose() * misfit;
     covariance.iter().all(|v| v.is_finite()).then_some(covariance)
@@ -190,7 +194,8 @@ pub(crate) fn point_covariance(
 
 /// Derivatives of the contact point at a place of phase A or B by the errors, and by the reactions, in lengths of the rod before the errors.
 /// They are those of errors around 0.
-pub(super) fn point_derivatives(
+pub(super) fn point_derivatives<I: Inverse>(
+    rod: &I,
     around: &CorrectionDifferences,
     tau: f64,
     measured: &LocalEstimate,
@@ -200,7 +205,7 @@ pub(super) fn point_derivatives(
     let by_errors = around.input_derivatives(tau, measured);
     let here = inputs(&around.here().apply(tau, &measured.clamp, &measured.rate));
     let point = |x: &Inputs| {
-        let touch = constrained_contact(&Uniform, &clamp_and_rate(x).0, noise, label).ok()?;
+        let touch = constrained_contact(rod, &clamp_and_rate(x).0, noise, label).ok()?;
         Some(Vector2::new(touch.x, touch.y))
     };
     let found = point(&here)?;
@@ -223,6 +228,7 @@ pub(super) fn point_derivatives(
 mod tests {
     use super::*;
     use crate::phase::Evidence;
+    use rod_core::Uniform;
 
     #[test]
     fn derivatives_of_the_criteria_are_those_of_differences() {
@@ -239,7 +245,7 @@ mod tests {
             for (natural, friction) in [(0.0, 0.0), (0.02, 0.2), (-0.01, -0.3)] {
                 let place = place(reactions, natural, friction);
                 // one input after the other in place of errors
-                let by = criteria_derivatives(&place, &SMatrix::<f64, INPUTS, SOURCES>::identity(), true);
+                let by = criteria_derivatives(&Uniform, &place, &SMatrix::<f64, INPUTS, SOURCES>::identity(), true);
                 let here = inputs(&place);
                 let again = Evidence::of(&Uniform, &LocalEstimate::exact(place.0, place.1)).again();
                 assert_eq!(again, later, "{reactions:?}");

@@ -5,9 +5,9 @@ use super::correction::{Correction, Frame};
 use super::influence::{CorrectionDifferences, POINT_INPUTS, criteria_derivatives, point_covariance, variances};
 use super::source::{Errors, Joint};
 use crate::phase::{CRITERIA, Criterion, Evidence, Label, Place};
+use crate::point::Inverse;
 use crate::scan::{Noise, Track};
 use nalgebra::{Matrix2, Matrix3, SymmetricEigen};
-use rod_core::Uniform;
 use std::ops::Range;
 
 /// Most places that the errors are estimated from, besides those next to kinks. More: more time.
@@ -35,7 +35,7 @@ pub(crate) struct RemainingErrors {
 
 impl RemainingErrors {
     /// Replaces the evidence of each place by that after a correction, with these errors in its standard deviations.
-    pub fn update_evidence(&self, errors: &Errors, track: &Track, places: &mut [Place]) {
+    pub fn update_evidence<I: Inverse>(&self, rod: &I, errors: &Errors, track: &Track, places: &mut [Place]) {
         let Some(around) = self.differences(errors) else { return };
         let stride = places.len().div_ceil(PLACES).max(1);
         let mut shared = None;
@@ -44,15 +44,16 @@ impl RemainingErrors {
             if k % stride == 0 || place.observation.between.is_some() {
                 shared = None;
             }
-            let evidence = self.evidence(&around, track.tau[place.index], place, &mut shared, 1.0);
+            let evidence = self.evidence(rod, &around, track.tau[place.index], place, &mut shared, 1.0);
             place.set_evidence(evidence);
         }
     }
 
     /// The evidence of one place. `shared` are the variances of the criteria by the errors: none where they are to be computed anew. So many
     /// places, `sharing`, have the same errors.
-    pub fn evidence(
+    pub fn evidence<I: Inverse>(
         &self,
+        rod: &I,
         around: &CorrectionDifferences,
         tau: f64,
         place: &Place,
@@ -61,12 +62,12 @@ impl RemainingErrors {
     ) -> Evidence {
         let measured = place.fit.at(tau);
         let here = around.here().apply(tau, &measured.clamp, &measured.rate);
-        let mut evidence = Evidence::of(&Uniform, &measured.moved(here.0, here.1));
+        let mut evidence = Evidence::of(rod, &measured.moved(here.0, here.1));
         let of_errors = || {
             if around.is_exact() {
                 return [0.0; CRITERIA];
             }
-            variances(&criteria_derivatives(&here, &around.input_derivatives(tau, &measured), true), &self.factor)
+            variances(&criteria_derivatives(rod, &here, &around.input_derivatives(tau, &measured), true), &self.factor)
         };
         let shared = shared.get_or_insert_with(of_errors);
         let quantities = evidence.quantities();
@@ -93,8 +94,9 @@ impl RemainingErrors {
 
     /// For each place of phase A or B the covariance of its contact point that the errors cause, dimensionless; the places are corrected.
     /// None where no place of a run has one.
-    pub fn point_covariances(
+    pub fn point_covariances<I: Inverse>(
         &self,
+        rod: &I,
         track: &Track,
         noise: &Noise,
         places: &[Place],
@@ -108,7 +110,7 @@ impl RemainingErrors {
             let covariance = if noise.is_clean() { Matrix3::zeros() } else { measured.covariance() };
             let criterion = if label == Label::A { Criterion::Length } else { Criterion::K };
             let misfit = self.scatter[criterion as usize].powi(2) - 1.0;
-            point_covariance(&around, tau, &measured, &covariance, label, &self.factor, misfit)
+            point_covariance(rod, &around, tau, &measured, &covariance, label, (&self.factor, misfit))
         };
         // a force that has hardly begun has no derivatives: such a place takes those of the nearest place of its label
         let mut found: Vec<Option<Matrix2<f64>>> = Vec::with_capacity(places.len());

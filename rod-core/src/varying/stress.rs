@@ -90,6 +90,10 @@ impl Diameters {
         if start.moment.is_nan() {
             return f64::NAN;
         }
+        // a contact set that is wrong has contacts beyond the tip, or in another order: nothing of the rod is there
+        if to <= from {
+            return 0.0;
+        }
         let ends = self.joints().iter().copied().filter(|joint| *joint > from && *joint < to).chain([to]);
         let (mut largest, mut left) = (0.0_f64, (from, start));
         for end in ends {
