@@ -4,7 +4,7 @@ Run it in the folder ``python`` with the release build installed (``pip install 
 
     python bench/crossing.py
 
-It builds and runs ``examples/rust_times.rs``, and takes the shortest of several times on both sides, which other work of the
+It builds and runs ``files/examples/rust_times.rs``, and takes the shortest of several times on both sides, which other work of the
 machine disturbs least. Times in Python include the arrays: all fields of states, events and contacts, or all answers and the contour.
 Not included are the texts of ``reasons``, which are made when they are asked for.
 """
@@ -54,7 +54,7 @@ def main() -> None:
         names = ["t", "x0", "y0", "phi0", "f0x", "f0y", "m0z"]
         rows = [",".join(names)] + [",".join(repr(float(row[name])) for name in names) for row in samples]
         file.write_text("\n".join(rows) + "\n")
-        example = ["cargo", "run", "--quiet", "--release", "--example", "rust_times", "--"]
+        example = ["cargo", "run", "--quiet", "--release", "--package", "rod-files", "--example", "rust_times", "--"]
         arguments = [str(SCENE), str(file), str(SWEEPS), str(RECONSTRUCTIONS)]
         done = subprocess.run([*example, *arguments], cwd=HERE, check=True, capture_output=True, text=True)
     in_rust = [float(number) for number in done.stdout.split()]

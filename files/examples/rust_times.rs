@@ -1,4 +1,4 @@
-//! The Rust half of `bench/crossing.py`. Prints the shortest time in seconds of a sweep with 1,000 steps past a scene, and of the
+//! The Rust half of `python/bench/crossing.py`. Prints the shortest time in seconds of a sweep with 1,000 steps past a scene, and of the
 //! reconstruction of a recording of it.
 #![allow(clippy::print_stdout, reason = "it is there to be read")]
 
