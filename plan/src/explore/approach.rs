@@ -10,12 +10,17 @@ use rod_core::Rod;
 /// rod. Larger: fewer scans, and larger stress where the object begins at once, so that the rig stops.
 pub(super) const DEPTH: f64 = 0.5;
 
-/// The scan that goes through the largest area that the rod has not passed, with the tip of the rod only; the first angle of equal ones. None where the stage allows none.
+/// Relative difference of areas that rounding makes.
+const EQUAL: f64 = 1e-9;
+
+/// The scan that goes through the largest area that the rod has not passed, with the tip of the rod only; of equal ones the first that no scan `came_from` the side of, else
+/// the first. None where the stage allows none.
 pub(super) fn approach(
     rod: &Rod,
     settings: &ExplorerSettings,
     space: &FreeSpace,
     is_allowed: impl Fn(ClampPath) -> bool,
+    came_from: impl Fn(ClampPath) -> bool,
 ) -> Option<ClampPath> {
     let candidate = |(number, &angle): (usize, &f64)| {
         let limit = space.frontier(angle)? + DEPTH * rod.length();
@@ -27,5 +32,16 @@ pub(super) fn approach(
         (space.allows(path) && is_allowed(path)).then(|| (path, space.unknown_area(angle, limit)))
     };
     let all = settings.angles.iter().enumerate().filter_map(candidate);
-    all.reduce(|best, one| if one.1 > best.1 { one } else { best }).map(|best| best.0)
+    let better = |best: (ClampPath, f64), one: (ClampPath, f64)| match one.1 - best.1 {
+        more if more.abs() <= EQUAL * best.1.abs() => {
+            if came_from(best.0) && !came_from(one.0) {
+                one
+            } else {
+                best
+            }
+        }
+        more if more > 0.0 => one,
+        _ => best,
+    };
+    all.reduce(better).map(|best| best.0)
 }

@@ -112,7 +112,13 @@ impl Explorer {
                 let force = forecast.largest_force;
                 (path, Purpose::Contour { forecast: Box::new(forecast), value }, force)
             }
-            None => match approach(rod, settings, space, |path| is_allowed(path) && self.is_from_new_side(path)) {
+            None => match approach(
+                rod,
+                settings,
+                space,
+                |path| is_allowed(path) && self.is_from_new_side(path),
+                |path| self.came_from(path),
+            ) {
                 // the largest moment, by the shortest lever: no object is nearer to the path
                 Some(path) => {
                     let moment = largest_moment(rod, settings.largest_stress).unwrap_or(0.0);
@@ -205,9 +211,12 @@ impl Explorer {
 
     /// Whether no touched part of the contour faces the clamp, and no scan came from there.
     fn is_from_new_side(&self, path: ClampPath) -> bool {
-        let angle = path.at(0.0).phi;
-        let was_there = self.made.iter().any(|made| (made.at(0.0).phi - angle).abs() < 1e-6);
-        self.known.is_empty() || !(was_there || faces(&self.known, angle + PI))
+        self.known.is_empty() || !(self.came_from(path) || faces(&self.known, path.at(0.0).phi + PI))
+    }
+
+    /// Whether a scan was made from the side of this one.
+    fn came_from(&self, path: ClampPath) -> bool {
+        self.made.iter().any(|made| (made.at(0.0).phi - path.at(0.0).phi).abs() < 1e-6)
     }
 
     fn is_made(&self, path: ClampPath) -> bool {

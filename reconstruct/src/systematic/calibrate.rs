@@ -5,7 +5,7 @@ use super::budget::{Budget, deviations};
 use super::calibration::{Calibration, SourceEstimate, ties};
 use super::correction::{Correction, Frame};
 use super::estimate_errors::{
-    ErrorEstimate, LabelledPlace, Prior, STEPS, estimate_errors, misfit_of, root_mean_square,
+    ErrorEstimate, LabelledPlace, Prior, SMALL, STEPS, estimate_errors, misfit_of, root_mean_square,
 };
 use super::free::free_stretches;
 use super::known::Known;
@@ -237,7 +237,9 @@ fn sparsest_correction<I: Inverse>(
         let taken =
             estimate_errors(rod, frame, &only, &restricted_estimate(found, prior, &free), places, least, STEPS).errors;
         if is_enough(&taken) {
-            return taken;
+            // estimates are no more accurate than that
+            let is_nothing = (0..SOURCES).all(|k| (taken[k] - means[k]).abs() <= SMALL * sigmas[k]);
+            return if is_nothing { *means } else { taken };
         }
         let of_scan = |k: usize| Source::ALL[k].is_of_scan() && sigmas[k] > 0.0;
         if (0..SOURCES).any(|k| of_scan(k) && !free[k]) {

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector, SVector};
 /// Most Gauss-Newton steps, for a result; each weighs the residuals anew.
 pub(super) const STEPS: usize = 8;
 /// A step below this many prior standard deviations of every source is the last one.
-const SMALL: f64 = 1e-4;
+pub(super) const SMALL: f64 = 1e-4;
 /// Residuals beyond about this many standard deviations count less and less, because the phase may be wrong.
 const OUTLYING: f64 = 3.0;
 const LOSS: Loss = Loss::Cauchy(OUTLYING);
