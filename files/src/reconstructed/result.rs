@@ -136,8 +136,8 @@ impl Reconstructed {
                 Finding::Uncertain { .. } => false,
                 // the local answer may miss the samples without contact that the contour has
                 Finding::NoFreeStretch => !is_free,
-                // of the local answer and its corrections: the contour has its own, and the reason where it gives no point
-                Finding::Unanswered { .. } | Finding::Lost { .. } | Finding::Misfit { .. } => false,
+                // of the corrections of the local answer: the contour has its own
+                Finding::Misfit { .. } => false,
                 _ => !is_within(finding),
             });
             let kinks = fit.unexplained_kinks(&self.found.kinks, &self.found.readings).filter(|_| had_kinks);
