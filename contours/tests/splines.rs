@@ -276,6 +276,18 @@ fn cuts_of_known_curves() {
     assert!(check_cuts(&loop_of_one, loop_of_one.range()) >= 3);
 }
 
+/// A part that begins just before an inflection, so that it turns back by less than 1e-9 rad.
+#[test]
+fn a_short_turn_before_an_inflection_is_cut_off() {
+    let wave = Spline::through(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [3.0, 1.0]], SplineEnd::Natural).unwrap();
+    let &[inflection] = wave.cuts(Range { from: 1.5, to: 3.0 }).as_slice() else { panic!() };
+    for short in [1e-4, 1e-5, 1e-6] {
+        let part = Range { from: inflection - short, to: inflection + 0.5 };
+        assert_eq!(wave.cuts(part), [inflection]);
+        assert!(wave.is_convex(Range { from: inflection, to: part.to }) && !wave.is_convex(part));
+    }
+}
+
 fn end() -> impl Strategy<Value = SplineEnd> {
     let angle = || proptest::option::of(-0.5..0.5);
     prop_oneof![

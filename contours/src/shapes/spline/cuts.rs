@@ -9,15 +9,11 @@ use crate::{Contour, Range};
 /// Cubics of an arc, so that its box stays small.
 const CUBICS: usize = 4;
 
-/// An angle, rad, by which a curve may turn back within an arc: what rounding makes of a straight line is less, and so is
-/// the turn at a joint that counts as smooth.
-const STRAIGHT: f64 = 1e-9;
-
 impl Spline {
     /// Parameters inside the range, in order, that part it into simple arcs: without an inflection inside, turning by a
     /// right angle at most, of four cubics at most.
     ///
-    /// A curve that turns back by less than 1e-9 rad counts as straight.
+    /// A curve that bends no more than rounding brings about counts as straight.
     pub(super) fn parted(&self, range: Range) -> Vec<f64> {
         let range = self.range().within(range);
         let mut cuts = Vec::new();
@@ -43,6 +39,7 @@ impl Spline {
         let mut sense = 0.0;
         let mut farthest = (range.from, self.frame(range.from).alpha);
         let mut from = range.from;
+        let turns = |from: f64, to: f64| !self.is_straight(Range { from, to });
         for knot in self.knots_in(range).chain([range.to]) {
             let cubic = self.keys.cubic(self.keys.cubic_at(from));
             let velocity = cubic.velocity();
@@ -51,12 +48,12 @@ impl Spline {
                 let alpha = self.frame(t).alpha;
                 let moved = alpha - farthest.1;
                 if sense == 0.0 {
-                    if moved.abs() > STRAIGHT {
+                    if turns(farthest.0, t) {
                         (sense, farthest) = (moved.signum(), (t, alpha));
                     }
                 } else if moved * sense >= 0.0 {
                     farthest = (t, alpha);
-                } else if moved.abs() > STRAIGHT {
+                } else if turns(farthest.0, t) {
                     inflections.push(farthest.0);
                     (sense, farthest) = (-sense, (t, alpha));
                 }
@@ -64,6 +61,11 @@ impl Spline {
             from = knot;
         }
         inflections
+    }
+
+    /// Whether the range bends no more than rounding brings about.
+    fn is_straight(&self, range: Range) -> bool {
+        self.bends(1.0, range) && self.bends(-1.0, range)
     }
 
     /// Cuts an arc without inflections at knots, and between them where a single cubic turns by more than a right angle.

@@ -113,20 +113,22 @@ impl Spline {
         ([fraction(part.from), fraction(part.to)], part)
     }
 
-    /// Whether all cubics of the range bend the same way, and no two of them meet at an angle that turns the other way (a
-    /// spline from a file may turn by up to 1e-9 rad from one to the next).
+    /// Whether the range bends one way only, or not at all.
     fn bends_one_way(&self, range: Range) -> bool {
-        let one_way = |sense: f64| {
-            let mut before: Option<Vector> = None;
-            self.span(range).all(|index| {
-                let cubic = self.keys.cubic(index);
-                let ([from, to], _) = self.part(index, range);
-                let velocity = cubic.velocity();
-                let joint = before.replace(velocity.at(1.0)).map_or(0.0, |before| cross(before, velocity.start));
-                cubic.bends(sense, from, to) && sense * joint >= -cubic.tolerance(&velocity)
-            })
-        };
-        one_way(1.0) || one_way(-1.0)
+        self.bends(1.0, range) || self.bends(-1.0, range)
+    }
+
+    /// Whether all cubics of the range bend only to the left (`sense` 1) or only to the right (-1), if at all, and no two of them meet at an angle that
+    /// turns the other way (a spline from a file may turn by up to 1e-9 rad from one to the next). What rounding brings about does not count.
+    fn bends(&self, sense: f64, range: Range) -> bool {
+        let mut before: Option<Vector> = None;
+        self.span(range).all(|index| {
+            let cubic = self.keys.cubic(index);
+            let ([from, to], _) = self.part(index, range);
+            let velocity = cubic.velocity();
+            let joint = before.replace(velocity.at(1.0)).map_or(0.0, |before| cross(before, velocity.start));
+            cubic.bends(sense, from, to) && sense * joint >= -cubic.tolerance(&velocity)
+        })
     }
 }
 
