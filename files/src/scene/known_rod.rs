@@ -7,9 +7,10 @@ use crate::toml_file::Fault;
 use crate::{SceneError, toml_file};
 use serde::Deserialize;
 use std::path::Path;
+use toml::Spanned;
 use toml::de::Deserializer;
 use vibrissa::Rod;
-use vibrissa::reconstruct::{Known, Source};
+use vibrissa::reconstruct::{Known, ReconstructError, Source};
 use vibrissa::rod::AnyRod;
 
 /// A rod on its clamp, and what `vibrissa calibrate` found of the errors of rod, sensor, clamp and stage.
@@ -43,7 +44,14 @@ fn parse_any(file: &Path, text: &str) -> Result<CalibratedRod, SceneError> {
     toml_file::parse_quantities(file, text, schema::rod_file, |table| {
         let file = RodFile::deserialize(Deserializer::from(table))?;
         let rod = file.any()?;
-        Ok(CalibratedRod { known: file.known(rod.at_clamp())?, rod })
+        let known = file.known(rod.at_clamp())?;
+        let table = file.calibration.as_ref().map(Spanned::get_ref);
+        match table.and_then(|table| table.get(&Source::NaturalCurvature)) {
+            Some(estimate) if rod.uniform().is_none() => {
+                Err(Fault::new(estimate.span(), ReconstructError::NaturalCurvature.to_string()))
+            }
+            _ => Ok(CalibratedRod { known, rod }),
+        }
     })
 }
 
@@ -107,6 +115,9 @@ mod tests {
         let table = format!("{cone}[calibration]\nlag = {{ value = 1e-3, sigma = 1e-4 }}\n");
         let CalibratedRod { known, .. } = parse_any("rod.toml".as_ref(), &table).unwrap();
         assert_eq!(known.of(Source::Lag), Some((1e-3, 1e-4)));
+        let bent = format!("{table}natural_curvature = {{ value = 0.3, sigma = 0.01 }}\n");
+        let error = parse_any("rod.toml".as_ref(), &bent).unwrap_err().to_string();
+        assert!(error.starts_with("rod.toml:8:") && error.contains("calibration.natural_curvature: "), "{error}");
     }
 
     #[test]

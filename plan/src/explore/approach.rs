@@ -32,16 +32,9 @@ pub(super) fn approach(
         (space.allows(path) && is_allowed(path)).then(|| (path, space.unknown_area(angle, limit)))
     };
     let all = settings.angles.iter().enumerate().filter_map(candidate);
-    let better = |best: (ClampPath, f64), one: (ClampPath, f64)| match one.1 - best.1 {
-        more if more.abs() <= EQUAL * best.1.abs() => {
-            if came_from(best.0) && !came_from(one.0) {
-                one
-            } else {
-                best
-            }
-        }
-        more if more > 0.0 => one,
-        _ => best,
+    let is_better = |(path, area): &(ClampPath, f64), (other, than): &(ClampPath, f64)| {
+        let are_equal = (area - than).abs() <= EQUAL * than;
+        if are_equal { came_from(*other) && !came_from(*path) } else { area > than }
     };
-    all.reduce(better).map(|best| best.0)
+    all.reduce(|best, one| if is_better(&one, &best) { one } else { best }).map(|best| best.0)
 }

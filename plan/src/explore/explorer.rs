@@ -92,16 +92,18 @@ impl Explorer {
         if self.proposed.is_none() && self.finished.is_none() {
             self.proposed = self.next()?;
             if self.proposed.is_none() {
-                let Self { rod, settings, known, space, .. } = &*self;
-                let is_lost = !known.is_empty() && !is_drawn(rod, settings, known, space)?;
-                self.finished = Some(match self.is_precise() {
-                    _ if is_lost => Finish::NoObject,
-                    true => Finish::Precise,
-                    false => Finish::NothingLeft,
-                });
+                self.finished = Some(self.why_nothing_is_proposed()?);
             }
         }
         Ok(self.proposed.clone())
+    }
+
+    fn why_nothing_is_proposed(&self) -> Result<Finish, ExploreError> {
+        let Self { rod, settings, known, space, .. } = self;
+        if !known.is_empty() && !is_drawn(rod, settings, known, space)? {
+            return Ok(Finish::NoObject);
+        }
+        Ok(if self.is_precise() { Finish::Precise } else { Finish::NothingLeft })
     }
 
     fn next(&self) -> Result<Option<Proposal>, ExploreError> {

@@ -21,8 +21,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 let half = blocks[k].half;
                 if changes_inside(states, k) {
                     let mean = forward.mean_reactions(state, [half.x * units.length, half.y * units.length, half.z])?;
-                    let bent = at[k] - Clamp::new(units, state.pose, state.reactions).reactions;
-                    return Some(Clamp::new(units, state.pose, mean).reactions + bent);
+                    return Some(Clamp::new(units, state.pose, mean).reactions + model.bend(k, units));
                 }
                 let segment = self.blocks.segment_of(k);
                 let has_neighbours =

@@ -98,6 +98,11 @@ impl Sources {
         (Self { sigmas, known, free }, start)
     }
 
+    /// The number of an error that all recordings have; none if it is known exactly.
+    fn number(&self, source: Source) -> Option<usize> {
+        self.free.iter().position(|error| error.source == source)
+    }
+
     /// The same, with all errors as they are known.
     pub fn exact(&self) -> Self {
         Self { free: Vec::new(), ..self.clone() }
@@ -231,6 +236,11 @@ impl Model {
             Vector3::new(f0x / units.force, f0y / units.force, m0z / units.moment) / units.length
         })
     }
+
+    /// By how much the reactions of a block differ from those of its state, to first order in what the rod is bent at rest beyond what is given; dimensionless.
+    pub fn bend(&self, block: usize, units: Units) -> Vector3<f64> {
+        self.reactions_by_natural(block, units) * self.natural
+    }
 }
 
 /// Derivatives of the reactions of a state: by the pose, and by the offsets of the points of the contour that it feels.
@@ -316,12 +326,11 @@ impl<R: PhysicalRod> Fit<'_, R> {
         Corrected { pose: Pose { x: pose.x, y: pose.y, phi: pose.z }, reactions, by_reactions, pose_by_reactions }
     }
 
-    /// The reactions at a block of a model, dimensionless, to first order in what the rod is bent at rest beyond what is given.
+    /// The reactions at a block of a model, dimensionless.
     pub fn reactions(&self, block: usize, model: &Model) -> Vector3<f64> {
         let units = self.rod.units();
         let of = |state: &State| Clamp::new(units, state.pose, state.reactions).reactions;
-        let bent = model.reactions_by_natural(block, units) * model.natural;
-        model.states[block].as_ref().map_or_else(Vector3::zeros, of) + bent
+        model.states[block].as_ref().map_or_else(Vector3::zeros, of) + model.bend(block, units)
     }
 
     /// The model with these unknowns; none where its contour is no curve.
@@ -348,7 +357,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
 
     /// How the states of a model change with the natural curvature of the rod, where that is not known to be as given.
     fn by_natural(&self, Model { objects, states, natural, .. }: &Model) -> Vec<Option<Response>> {
-        if *natural == 0.0 && self.sources.free.iter().all(|error| error.source != Source::NaturalCurvature) {
+        if *natural == 0.0 && self.sources.number(Source::NaturalCurvature).is_none() {
             return Vec::new();
         }
         let of = |state: &State| {
@@ -472,14 +481,12 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 add(curve.count() + i, response, moved / STEP);
             }
         }
-        let number = |source: Source| self.sources.free.iter().position(|error| error.source == source);
-        if let Some((i, response)) =
-            number(Source::NaturalCurvature).zip(by_natural.get(block).and_then(Option::as_ref))
-        {
+        let response = by_natural.get(block).and_then(Option::as_ref);
+        if let Some((i, response)) = self.sources.number(Source::NaturalCurvature).zip(response) {
             let sigma = self.sources.sigmas[Source::NaturalCurvature as usize] / self.rod.units().length;
             add(curve.count() + i, response, sigma);
         }
-        if let Some(i) = number(Source::Length) {
+        if let Some(i) = self.sources.number(Source::Length) {
             let sigma = self.sources.sigmas[Source::Length as usize];
             for (by, contact) in by.iter_mut().zip(&state.contacts) {
                 by.by_length = Some((curve.count() + i, Vector2::new(contact.x, contact.y) * sigma));

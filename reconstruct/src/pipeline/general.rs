@@ -1,8 +1,7 @@
 //! The reconstruction of a scan of any rod on any clamp.
 
-use super::calibrated::Calibrated;
 use super::each_pass::each_pass;
-use super::reconstruct::reconstruct_calibrated;
+use super::reconstruct::reconstruct_by;
 use super::reconstruction::Reconstruction;
 use super::settings::{ReconstructError, Settings};
 use crate::point::Any;
@@ -46,8 +45,5 @@ pub fn reconstruct_general<R: PhysicalRod>(
     let uniform =
         Rod::new(units.length, stiffness).map_err(|_| ReconstructError::Setting { what, value: stiffness })?;
     let inverse = Any(rod);
-    each_pass(&uniform, samples, |pass| {
-        let scan = Calibrated::of(&inverse, &uniform, pass, settings)?;
-        Ok(reconstruct_calibrated(&inverse, units, pass, scan, settings))
-    })
+    each_pass(&uniform, samples, |pass| reconstruct_by(&inverse, &uniform, pass, settings))
 }

@@ -10,7 +10,7 @@ use crate::phase::{Label, identify_phases};
 use crate::point::Inverse;
 use crate::scan::SampleNumber;
 use crate::scan::noise_estimate::ChannelNoise;
-use rod_core::{Rod, Sample, Uniform, Units};
+use rod_core::{Rod, Sample, Uniform};
 
 /// Computes from the reactions of a scan the phase of each sample and the places where the rod touched the object.
 ///
@@ -28,24 +28,18 @@ use rod_core::{Rod, Sample, Uniform, Units};
 /// # Errors
 /// [`ReconstructError`].
 pub fn reconstruct(rod: &Rod, samples: &[Sample], settings: &Settings) -> Result<Reconstruction, ReconstructError> {
-    Ok(reconstruct_calibrated(
-        &Uniform,
-        rod.units(),
-        samples,
-        Calibrated::of(&Uniform, rod, samples, settings)?,
-        settings,
-    ))
+    reconstruct_by(&Uniform, rod, samples, settings)
 }
 
-/// The labels and contact points of a scan; `given` are the units of the rod as it was given.
-pub(super) fn reconstruct_calibrated<I: Inverse>(
+/// [`reconstruct`] by the inverse of a rod; `given` is a uniform rod of the same units.
+pub(super) fn reconstruct_by<I: Inverse>(
     rod: &I,
-    given: Units,
+    given: &Rod,
     samples: &[Sample],
-    scan: Calibrated,
     settings: &Settings,
-) -> Reconstruction {
-    let Calibrated { track, indices, found, kinks, noise, steps, breaks, places, units, calibration, friction } = scan;
+) -> Result<Reconstruction, ReconstructError> {
+    let Calibrated { track, indices, found, kinks, noise, steps, breaks, places, units, calibration, friction } =
+        Calibrated::of(rod, given, samples, settings)?;
     let phases = identify_phases(rod, &track, &noise, places);
     let shared = calibration.as_ref().map(|calibration| &calibration.0);
     let systematic = shared
@@ -82,7 +76,8 @@ pub(super) fn reconstruct_calibrated<I: Inverse>(
         }
     }
     let runs = runs(numbers.iter().zip(&usable).map(|(number, reading)| (number.0, reading.label)));
-    let size = [given.force, given.force, given.moment];
+    let of_given = given.units();
+    let size = [of_given.force, of_given.force, of_given.moment];
     let slope = |kink: &Kink, c: usize| if kink.kind == KinkKind::Kink { size[c] / units.length } else { size[c] };
     let in_units = |kink: &Kink| Kink {
         tau: kink.tau * units.length,
@@ -94,7 +89,7 @@ pub(super) fn reconstruct_calibrated<I: Inverse>(
         ..*kink
     };
     let clean = noise.is_clean();
-    Reconstruction {
+    Ok(Reconstruction {
         readings,
         runs,
         kinks: kinks.iter().map(in_units).collect(),
@@ -108,5 +103,5 @@ pub(super) fn reconstruct_calibrated<I: Inverse>(
             used_friction: track.friction,
             friction,
         }],
-    }
+    })
 }
