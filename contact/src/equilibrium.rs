@@ -7,6 +7,7 @@ use crate::contact_set::{Configuration, Unknowns};
 use crate::continuation::branch::Corrector;
 use crate::continuation::certify::{Quality, state};
 use crate::error::ContactError;
+use crate::friction::sliding::slide_all;
 use crate::gap::Scanner;
 use crate::path::{ClampPath, check};
 use crate::scene::Setup;
@@ -117,13 +118,43 @@ pub fn equilibrium<R: PhysicalRod>(
     pose: Pose,
     guess: &[Contact],
 ) -> Result<Equilibrium, ContactError> {
+    sliding_equilibrium(rod, objects, pose, guess, 0.0)
+}
+
+/// [`equilibrium`] of a rod all of whose contacts slide the same way along it: of each the force is turned from the normal of the contour by
+/// atan `coefficient`, towards the tip of the rod where that is positive, as on a rod that is drawn back over its contacts. With a coefficient of 0 the
+/// friction of the guess stays as it is.
+///
+/// ```
+/// use rod_contact::{Contact, ContactKind, sliding_equilibrium};
+/// use rod_contours::{Composite, Parabola};
+/// use rod_core::{Pose, Rod};
+/// let contour = Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?;
+/// let pose = Pose { x: 0.1, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
+/// let guess = Contact { object: 0, piece: 0, kind: ContactKind::Tangent, s: 0.6, x: 0.25, y: 0.3, alpha: 1.2, force: 1.0, friction: None };
+/// let found = sliding_equilibrium(&Rod::new(1.0, 1.0)?, &contour, pose, &[guess], 0.2)?;
+/// assert_eq!(found.is_admissible(), Ok(()));
+/// let [contact] = found.state.contacts.as_slice() else { return Err("not one contact".into()) };
+/// assert!((contact.friction.ok_or("smooth")?.force - 0.2 * contact.force).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`equilibrium`]; [`ContactError::NotFinite`] for a coefficient that is not.
+pub fn sliding_equilibrium<R: PhysicalRod>(
+    rod: &R,
+    objects: &(impl AsRef<[Composite]> + ?Sized),
+    pose: Pose,
+    guess: &[Contact],
+    coefficient: f64,
+) -> Result<Equilibrium, ContactError> {
     #[cfg(feature = "argmin")]
     let rescue = |corrector: &mut Corrector<'_, R>, configuration: &mut Configuration| {
         Some(corrector.solve_by_trust_region(configuration, 0.0, |search| search))
     };
     #[cfg(not(feature = "argmin"))]
     let rescue = |_: &mut Corrector<'_, R>, _: &mut Configuration| None;
-    found(rod, objects.as_ref(), pose, guess, rescue)
+    found(rod, objects.as_ref(), pose, (guess, coefficient), rescue)
 }
 
 /// [`equilibrium`] with the user's limits and observers of `argmin`'s trust region: `search` gets its executor before it runs, up to
@@ -156,7 +187,7 @@ pub fn equilibrium_with_search<R: PhysicalRod>(
     let rescue = |corrector: &mut Corrector<'_, R>, configuration: &mut Configuration| {
         Some(corrector.solve_by_trust_region(configuration, 0.0, &mut search))
     };
-    found(rod, objects.as_ref(), pose, guess, rescue)
+    found(rod, objects.as_ref(), pose, (guess, 0.0), rescue)
 }
 
 /// The equilibrium by Newton's method, or by `rescue` where that fails.
@@ -164,12 +195,13 @@ fn found<R: PhysicalRod>(
     rod: &R,
     objects: &[Composite],
     pose: Pose,
-    guess: &[Contact],
+    (guess, sliding): (&[Contact], f64),
     rescue: impl FnMut(&mut Corrector<'_, R>, &mut Configuration) -> Option<SolveReport>,
 ) -> Result<Equilibrium, ContactError> {
     check(pose, ["pose.x", "pose.y", "pose.phi"])?;
     let units = rod.units();
     let mut corrector = Corrector::new(Setup::new(rod, objects, ClampPath::standing(pose)));
+    corrector.setup.world.slide(sliding)?;
     let supposed = contacts_of_guess(&corrector.setup.world, units, guess)?;
     let (configuration, report) = solve_guess(&mut corrector, &supposed, rescue);
     let mut scanner = Scanner::default();
@@ -243,9 +275,14 @@ fn is_plausible(world: &World<'_>, (configuration, report): &Root) -> bool {
 /// smaller residual first, since a force may be a mere guess; then with arc lengths and slope angles of the chords.
 fn starts<R: PhysicalRod>(setup: &Setup<'_, R>, supposed: &[GuessedContact]) -> [Configuration; 3] {
     let clamp = setup.path.at(0.0);
-    let arcs = configuration_of_guess(supposed, &by_chords(clamp, supposed, 2.0));
-    let by_forces = configuration_of_guess(supposed, &by_forces(setup.rod.model(), &setup.clamp(0.0), supposed));
-    let chords = configuration_of_guess(&along_chords(clamp, supposed), &by_chords(clamp, supposed, 1.0));
+    let of_guess = |supposed: &[GuessedContact], slopes: &[f64]| {
+        let mut configuration = configuration_of_guess(supposed, slopes);
+        slide_all(&setup.world, &mut configuration);
+        configuration
+    };
+    let arcs = of_guess(supposed, &by_chords(clamp, supposed, 2.0));
+    let by_forces = of_guess(supposed, &by_forces(setup.rod.model(), &setup.clamp(0.0), supposed));
+    let chords = of_guess(&along_chords(clamp, supposed), &by_chords(clamp, supposed, 1.0));
     let off = |configuration: &Configuration| {
         let (supports, u) = (configuration.supports(&setup.world), configuration.of_contacts());
         let mut residual = Unknowns::from_elem(0.0, u.len());

@@ -36,7 +36,7 @@ mod sweep;
 pub use derivatives::{Derivatives, Quantity, TransitionDerivatives};
 #[cfg(feature = "argmin")]
 pub use equilibrium::equilibrium_with_search;
-pub use equilibrium::{Equilibrium, Inadmissible, equilibrium};
+pub use equilibrium::{Equilibrium, Inadmissible, equilibrium, sliding_equilibrium};
 pub use error::{ContactError, LARGEST_ANGLE, Obstacle, Stop, StopReason};
 pub use event::{Event, EventKind};
 pub use friction::{Coefficients, Friction};

@@ -6,3 +6,4 @@ mod laws;
 mod limits;
 mod random;
 mod scans;
+mod sliding;

@@ -160,6 +160,14 @@ impl Configuration {
         }
     }
 
+    /// The force along the contour over the normal one, where contact j slips; else 0.
+    pub fn ratio(&self, j: usize) -> f64 {
+        match self.contacts[j].grip {
+            Grip::Slips { ratio } => ratio,
+            Grip::Sticks { .. } => 0.0,
+        }
+    }
+
     /// Lets contact j slip with this part of its normal force along the contour.
     pub fn set_slipping(&mut self, j: usize, ratio: f64) {
         if self.contacts[j].grip.sticks() {

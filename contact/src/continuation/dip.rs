@@ -83,6 +83,7 @@ pub(super) fn dips(
         let force = course(Unknown::Force(j).index(size));
         let rubs = match here.contacts[j].grip {
             Grip::SMOOTH => false,
+            Grip::Slips { .. } if world.sliding() != 0.0 => false,
             Grip::Sticks { .. } => {
                 let (friction, limit) =
                     (course(here.friction_index(j)), world.coefficients(here.contacts[j].stretch).at_rest);

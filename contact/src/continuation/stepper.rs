@@ -6,6 +6,7 @@ use crate::continuation::certify::Quality;
 use crate::continuation::transition::Transition;
 use crate::continuation::{Change, Corrected, Point, Seen, Step};
 use crate::error::{Obstacle, StopReason};
+use crate::friction::sliding::slide_new_contacts;
 use crate::gap::{Scan, Scanner};
 use crate::limits::LIMITS;
 use rod_core::{PhysicalRod, Rod};
@@ -110,7 +111,8 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
     }
 
     /// A configuration at a transition with its scan.
-    pub fn look(&mut self, configuration: Configuration) -> Seen {
+    pub fn look(&mut self, mut configuration: Configuration) -> Seen {
+        slide_new_contacts(&self.corrector.setup.world, &mut configuration);
         let scan = self.scanner.scan_transition(&self.corrector.setup, &configuration);
         Seen { configuration, scan }
     }

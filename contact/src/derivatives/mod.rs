@@ -9,6 +9,7 @@ pub use quantity::Quantity;
 pub use transition::TransitionDerivatives;
 
 use crate::error::ContactError;
+use crate::friction::sliding::along;
 use crate::scene::world::World;
 use crate::state::State;
 use motion::motion;
@@ -174,6 +175,32 @@ impl<'a> Derivatives<'a> {
         let rate = curvature_rate(rod, parameter)?;
         let rates = self.restored.linear.response_to_bend(rod.model(), rate);
         Ok(self.in_units(rates.ok_or(ContactError::NotEquilibrium { reason: "it is of another rod" })?))
+    }
+
+    /// The change of everything per unit of the coefficient with which all contacts slide the same way along the rod, as
+    /// [`Follower::sliding`](crate::Follower::sliding) lets them; a rod that rests in a notch does not slide there.
+    ///
+    /// ```
+    /// use rod_contact::{ClampPath, Contact, Derivatives, Sweep, sliding_equilibrium};
+    /// use rod_contours::{Composite, Parabola};
+    /// use rod_core::{Pose, Rod};
+    /// let (rod, object) = (Rod::new(0.1, 2e-3)?, Composite::single(Parabola::new([0.0, 0.0], 50.0)?)?);
+    /// let clamp = |x| Pose { x, y: -0.04, phi: std::f64::consts::FRAC_PI_2 };
+    /// let states = Sweep::new(&rod, &object, ClampPath::new(clamp(0.05), clamp(0.0))?, 0.01)?.run().states;
+    /// let state = &states[3];
+    /// let there = |mu| sliding_equilibrium(&rod, &object, state.pose, &state.contacts, mu).map(|found| found.state.reactions.f0y);
+    /// let rate = Derivatives::new(&rod, &object, state)?.by_sliding()?.reactions.f0y;
+    /// assert!(((there(1e-4)? - there(-1e-4)?) / 2e-4 - rate).abs() < 1e-7 * rate.abs());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ContactError::Fold`].
+    pub fn by_sliding(&self) -> Result<Response, ContactError> {
+        let Restored { linear, configuration, .. } = &*self.restored;
+        let ratios: Vec<f64> = (0..configuration.count()).map(|j| along(&self.world, configuration, j)).collect();
+        Ok(self
+            .in_units(linear.response_to_grips(&ratios).ok_or(ContactError::Fold { condition: linear.condition() })?))
     }
 
     /// Dimensionless rates per SI unit of a quantity, in SI.

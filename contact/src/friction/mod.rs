@@ -14,6 +14,7 @@
 
 pub(crate) mod law;
 mod modes;
+pub(crate) mod sliding;
 
 pub use law::{Coefficients, Friction};
 
@@ -29,7 +30,7 @@ use rod_core::{Grip, Hold, PhysicalRod, Support, arc_length};
 const WRONG_WAY: f64 = 1e-10;
 
 /// 1 where the rod runs in the sense of the contour at contact j, -1 where it runs against it.
-fn sense(configuration: &Configuration, j: usize, support: &Support) -> f64 {
+pub(crate) fn sense(configuration: &Configuration, j: usize, support: &Support) -> f64 {
     match configuration.contacts[j].hold {
         Hold::Tangent { offset } => 1.0_f64.copysign(offset.cos()),
         Hold::Tip => 1.0_f64.copysign((configuration.slope(j) - support.alpha).cos()),
@@ -56,14 +57,15 @@ pub(crate) fn slip_between(world: &World<'_>, from: &Configuration, to: &Configu
     along - sense(from, j, &world.support(stretch, from.t(j))) * (to.s(j) - from.s(j))
 }
 
-/// The contacts that slip against the sense of their friction, each with its f_t / f: they have stopped on the way here.
+/// The contacts that slip against the sense of their friction, each with its f_t / f: they have stopped on the way here. None of a rod whose contacts
+/// [slide](sliding) whatever their motion.
 pub(crate) fn reversed_slips<'a>(
     world: &'a World<'_>,
     configuration: &'a Configuration,
     tangent: &'a Tangent,
 ) -> impl Iterator<Item = (usize, f64)> + 'a {
     configuration.contacts.iter().enumerate().filter_map(|(j, held)| match held.grip {
-        Grip::Slips { ratio } if ratio != 0.0 => {
+        Grip::Slips { ratio } if ratio != 0.0 && world.sliding() == 0.0 => {
             (ratio.signum() * slip_rate(world, configuration, tangent, j) > WRONG_WAY).then_some((j, ratio))
         }
         _ => None,

@@ -44,6 +44,8 @@ pub(crate) struct World<'a> {
     length: f64,
     /// Coefficients of friction by stretch, if there is any.
     friction: Option<Arc<[Coefficients]>>,
+    /// The coefficient with which all contacts slide one way along the rod; 0 without.
+    sliding: f64,
     /// Whether any object is a closed curve in one piece that is smooth where it closes.
     has_loops: bool,
 }
@@ -122,7 +124,18 @@ impl<'a> World<'a> {
         let index =
             Index::new(objects.iter().map(|object| if is_bounded(object) { object.bounds() } else { Bounds::ALL }));
         let has_loops = objects.iter().any(|object| object.neighbour(0, true) == Some(0));
-        Self { objects, index, first: first.collect(), first_run, ends, skin: SKIN, length, friction: None, has_loops }
+        Self {
+            objects,
+            index,
+            first: first.collect(),
+            first_run,
+            ends,
+            skin: SKIN,
+            length,
+            friction: None,
+            sliding: 0.0,
+            has_loops,
+        }
     }
 
     /// Gives the objects this friction, which is asked once for each piece.
@@ -138,9 +151,24 @@ impl<'a> World<'a> {
         Ok(())
     }
 
+    /// Lets all contacts slide with this coefficient, positive where friction draws the rod towards its tip.
+    pub fn slide(&mut self, coefficient: f64) -> Result<(), ContactError> {
+        if !coefficient.is_finite() {
+            return Err(ContactError::NotFinite { what: "coefficient", value: coefficient });
+        }
+        self.sliding = coefficient;
+        Ok(())
+    }
+
+    /// The coefficient with which all contacts slide one way along the rod, whatever their motion; 0 where it is not so.
+    #[inline(always)]
+    pub fn sliding(&self) -> f64 {
+        self.sliding
+    }
+
     /// Takes the friction away.
     pub fn polish(&mut self) {
-        self.friction = None;
+        (self.friction, self.sliding) = (None, 0.0);
     }
 
     /// Whether the objects have friction.

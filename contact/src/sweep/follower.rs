@@ -6,6 +6,7 @@ use super::{Item, Stage, Sweep};
 use crate::continuation::Point;
 use crate::error::{ContactError, Stop, StopReason};
 use crate::friction::Friction;
+use crate::friction::sliding::sliding_near;
 use crate::limits::LIMITS;
 use crate::path::{ClampPath, check};
 use crate::scene::Setup;
@@ -115,6 +116,38 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
     pub fn with_friction(mut self, friction: impl Friction) -> Result<Self, ContactError> {
         self.sweep = self.sweep.with_friction(friction)?;
         Ok(self)
+    }
+
+    /// Lets all contacts slide the same way along the rod, whatever their motion: of each the force is turned from the normal of the contour by
+    /// atan `coefficient`, towards the tip of the rod where that is positive, as on a rod that is drawn back over its contacts. Unlike with
+    /// [friction](Self::with_friction) a state does not depend on how the rod came there, so that the way back is that there. The rod is brought to
+    /// the equilibrium with this coefficient where it is.
+    ///
+    /// ```
+    /// use rod_contact::{Follower};
+    /// use rod_contours::{Composite, Parabola};
+    /// use rod_core::{Pose, Rod};
+    /// let (rod, object) = (Rod::new(1.0, 1.0)?, Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?);
+    /// let clamp = |x| Pose { x, y: -0.4, phi: std::f64::consts::FRAC_PI_2 };
+    /// let mut rod = Follower::new(&rod, &object, clamp(0.9))?.sliding(0.3)?;
+    /// rod.to(clamp(0.2))?;
+    /// let there = rod.state().reactions;
+    /// rod.to(clamp(0.25))?;
+    /// rod.to(clamp(0.2))?;
+    /// assert!((rod.state().reactions.m0z - there.m0z).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ContactError::NotFinite`]; [`ContactError::NotEquilibrium`] where there is no equilibrium with this coefficient.
+    pub fn sliding(mut self, coefficient: f64) -> Result<Self, ContactError> {
+        let here = &self.at.configuration;
+        self.sweep.stepper.corrector.setup.world.slide(coefficient)?;
+        let at = sliding_near(&mut self.sweep.stepper.corrector, here)
+            .ok_or(ContactError::NotEquilibrium { reason: "there is none with this friction" })?;
+        let at = self.sweep.point_of(at);
+        let state = self.sweep.state(&at);
+        Ok(Self { at: Box::new(at), state, ..self })
     }
 
     /// Ends a move with [`StopReason::Jump`] where the equilibrium ends and the rod jumps. To find where it lands costs as much as hundreds of states.

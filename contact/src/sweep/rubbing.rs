@@ -8,6 +8,7 @@ use crate::continuation::certify::energy;
 use crate::continuation::{Point, Seen, Step};
 use crate::error::StopReason;
 use crate::event::EventKind;
+use crate::friction::sliding::{sliding_near, with_ratios};
 use crate::friction::{Motion, UNLOADED, friction_work, possible_motions};
 use crate::limits::LIMITS;
 use crate::scene::rod::along;
@@ -43,9 +44,6 @@ fn event_of_turn(before: &Configuration, after: &Configuration) -> Option<EventK
     (0..after.count()).any(|j| slips(j) && turns(j)).then_some(EventKind::Slip)
 }
 
-/// Steps in which the coefficient grows from 0: an equilibrium without friction is near the one with a tenth of it.
-const GROWTH: u32 = 10;
-
 /// The equilibrium with friction near `landed`, to which a descent without friction has led. Statics does not determine this friction, because it
 /// depends on the motion: at each contact it opposes the motion from the shape `before`. None where there is no such equilibrium.
 fn with_drag<R: PhysicalRod>(
@@ -53,7 +51,7 @@ fn with_drag<R: PhysicalRod>(
     landed: &Configuration,
     before: &Segments,
 ) -> Option<Configuration> {
-    let (world, tau) = (&corrector.setup.world, landed.tau());
+    let world = &corrector.setup.world;
     let ratio = |j: usize| {
         let held = landed.contacts[j];
         if world.is_notch(held.stretch) {
@@ -65,19 +63,7 @@ fn with_drag<R: PhysicalRod>(
         -world.coefficients(held.stretch).slipping * way.signum()
     };
     let ratios: Vec<f64> = (0..landed.count()).map(ratio).collect();
-    let mut dragged = landed.clone();
-    for step in 1..=GROWTH {
-        let share = f64::from(step) / f64::from(GROWTH);
-        for (j, ratio) in ratios.iter().enumerate() {
-            dragged.contacts[j].grip = Grip::Slips { ratio: share * ratio };
-        }
-        let report = corrector.at_pose(&mut dragged, tau);
-        let holds = |j: usize| dragged.force(j) > 0.0 && dragged.s(j) <= 1.0;
-        if !report.status.is_solved() || !(0..dragged.count()).all(holds) {
-            return None;
-        }
-    }
-    Some(dragged)
+    with_ratios(corrector, landed, &ratios)
 }
 
 impl<R: PhysicalRod> Sweep<'_, R> {
@@ -189,6 +175,11 @@ impl<R: PhysicalRod> Sweep<'_, R> {
     pub(super) fn continue_from_landing(&mut self, landed: Seen, last: &EndedBranch) -> Option<Point> {
         if !self.may_fall(last.energy, &landed.configuration) {
             return None;
+        }
+        if self.setup().world.sliding() != 0.0 {
+            let slides = sliding_near(&mut self.stepper.corrector, &landed.configuration)?;
+            let seen = self.stepper.look(slides);
+            return self.continue_with(seen);
         }
         if !self.setup().world.rubs() || landed.configuration.count() == 0 {
             return self.continue_with(landed);

@@ -184,8 +184,43 @@ impl Linearisation {
     /// and the reactions are those at the base of the rod, wherever that goes. None where the Jacobian has no inverse, or there is
     /// not one rate for each support.
     pub fn response(&self, clamp: Pose, supports: &[SupportRate]) -> Option<Response> {
-        let rates = self.residual_rates(clamp, supports)?;
-        let nodes = self.solved(&rates, supports)?;
+        self.response_to(clamp, supports, &[])
+    }
+
+    /// The change of the equilibrium per unit of something by which the tangential force of each contact that slips becomes so many times
+    /// its normal force larger, with clamp and supports at rest. None where the Jacobian has no inverse, or there is not one rate for each
+    /// support.
+    ///
+    /// ```
+    /// use rod_core::{Hold, MultiPoint, NewtonOptions, NewtonWorkspace, Pose, Support, Supports, Uniform, solve};
+    /// // the tip of an upright rod on a wall x = 0.5 that is travelled upwards
+    /// struct Wall;
+    /// impl Supports for Wall {
+    ///     fn count(&self) -> usize { 1 }
+    ///     fn hold(&self, _: usize) -> Hold { Hold::Tip }
+    ///     fn support(&self, _: usize, t: f64) -> Support {
+    ///         Support { x: 0.5, y: t, alpha: std::f64::consts::FRAC_PI_2, speed: 1.0, turning: 0.0 }
+    ///     }
+    /// }
+    /// let clamp = Pose { x: 0.5, y: 0.0, phi: std::f64::consts::FRAC_PI_2 };
+    /// let problem = MultiPoint { rod: Uniform, clamp, supports: &Wall };
+    /// // a straight rod without a force feels no friction
+    /// let rubs = problem.linearise(&[1.0, 0.0, clamp.phi]).response_to_grips(&[1.0]).ok_or("singular")?;
+    /// assert_eq!(rubs.reactions.f0y, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn response_to_grips(&self, ratios: &[f64]) -> Option<Response> {
+        if ratios.len() != self.held.len() {
+            return None;
+        }
+        let rubs: SmallVec<[f64; 8]> = self.held.iter().zip(ratios).map(|(held, by)| held.node.force * by).collect();
+        self.response_to(Pose { x: 0.0, y: 0.0, phi: 0.0 }, &self.still(), &rubs)
+    }
+
+    /// The response where besides clamp and supports the tangential forces change like this.
+    fn response_to(&self, clamp: Pose, supports: &[SupportRate], rubs: &[f64]) -> Option<Response> {
+        let rates = self.rates_of_residual(clamp, supports, rubs)?;
+        let nodes = self.solved_with(&rates, supports, rubs)?;
         let reactions = self.reactions(clamp, &nodes);
         Some(Response { reactions, contacts: nodes.into_iter().map(|node| node.contact).collect() })
     }
@@ -234,12 +269,16 @@ impl Linearisation {
 
     /// The motion of the contacts by the rates of the residual, and by those of the supports that they come from.
     fn solved(&self, rates: &[f64], supports: &[SupportRate]) -> Option<Vec<NodeRate>> {
+        self.solved_with(rates, supports, &[])
+    }
+
+    fn solved_with(&self, rates: &[f64], supports: &[SupportRate], rubs: &[f64]) -> Option<Vec<NodeRate>> {
         if !self.condition.is_finite() {
             return None;
         }
         let mut unknowns = Vector::from_elem(0.0, rates.len());
         multiply(&self.inverse, rates, -1.0, &mut unknowns);
-        Some(self.node_rates(supports, Some(&unknowns)))
+        Some(self.node_rates(supports, rubs, Some(&unknowns)))
     }
 
     /// The change of the reactions at a clamp that moves like this.
@@ -304,10 +343,14 @@ impl Linearisation {
     /// The change of the residual, at fixed unknowns, when clamp and supports move like this; none where there is not one rate for
     /// each support.
     pub fn residual_rates(&self, clamp: Pose, supports: &[SupportRate]) -> Option<SmallVec<[f64; 25]>> {
+        self.rates_of_residual(clamp, supports, &[])
+    }
+
+    fn rates_of_residual(&self, clamp: Pose, supports: &[SupportRate], rubs: &[f64]) -> Option<Vector> {
         if supports.len() != self.held.len() {
             return None;
         }
-        let nodes = self.node_rates(supports, None);
+        let nodes = self.node_rates(supports, rubs, None);
         let mut rates = Vector::with_capacity(3 * nodes.len());
         let mut target = self.target_rates(clamp);
         for (j, (rate, held)) in nodes.iter().zip(&self.held).enumerate() {
@@ -325,8 +368,9 @@ impl Linearisation {
         Some(rates)
     }
 
-    /// How the supports move, and force and moment with them; with the rates of the unknowns, if any, how the contacts do.
-    fn node_rates(&self, supports: &[SupportRate], unknowns: Option<&[f64]>) -> Vec<NodeRate> {
+    /// How the supports move, and force and moment with them, where the tangential forces change by `rubs` (0 beyond its end); with the rates of
+    /// the unknowns, if any, how the contacts do.
+    fn node_rates(&self, supports: &[SupportRate], rubs: &[f64], unknowns: Option<&[f64]>) -> Vec<NodeRate> {
         let mut rates: Vec<NodeRate> = Vec::with_capacity(supports.len());
         let mut tangential = 3 * self.held.len();
         for (j, (Held { node, tangent, grip, .. }, moves)) in self.held.iter().zip(supports).enumerate() {
@@ -336,7 +380,7 @@ impl Linearisation {
             let (phi, s) = if *tangent { (alpha, third) } else { (third, 0.0) };
             let (x, y) = (moves.x + along * node.cos, moves.y + along * node.sin);
             let [(own_a, own_b), (push_a, push_b)] = node.push(*grip);
-            let mut friction = 0.0;
+            let mut friction = rubs.get(j).copied().unwrap_or_default();
             if grip.sticks() {
                 friction = unknowns.map_or(0.0, |u| u[tangential]);
                 tangential += 1;

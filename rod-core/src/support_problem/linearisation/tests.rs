@@ -7,10 +7,16 @@ use crate::solve::System;
 use crate::support_problem::Support;
 use proptest::prelude::*;
 
-/// Circles r = centre + radius (sin t, -cos t), each moved by `amount` of its rate: translated, and turned about its centre.
+/// Circles r = centre + radius (sin t, -cos t), each moved by `amount` of its rate: translated, and turned about its centre; with friction that
+/// changes, too.
 struct Circles {
     all: Vec<(Hold, [f64; 3], SupportRate)>,
     amount: f64,
+}
+
+/// How the friction of a circle changes.
+fn by_grip(j: usize) -> f64 {
+    0.7 - 0.4 * j as f64
 }
 
 impl Supports for Circles {
@@ -25,6 +31,9 @@ impl Supports for Circles {
         let at = |v: f64| self.amount * v;
         let (x, y, alpha) = (x + radius * t.sin() + at(rate.x), y - radius * t.cos() + at(rate.y), t + at(rate.alpha));
         Support { x, y, alpha, speed: radius, turning: 1.0 }
+    }
+    fn grip(&self, j: usize) -> Grip {
+        Grip::Slips { ratio: 0.1 * j as f64 - 0.2 + self.amount * by_grip(j) }
     }
 }
 
@@ -75,7 +84,8 @@ fn the_rates_are_derivatives<C: Clamp>(
     let clamp = held(Pose { x: 0.0, y: 0.0, phi: 1.5 });
     let linear = MultiPoint { rod: Uniform, clamp, supports: &circles }.linearise(u);
     let moves: Vec<_> = all.iter().map(|one| one.2).collect();
-    let rates = linear.residual_rates(path, &moves).unwrap();
+    let rubs: Vec<_> = (0..all.len()).map(|j| u[3 * j + 1] * by_grip(j)).collect();
+    let rates = linear.rates_of_residual(path, &moves, &rubs).unwrap();
     let (up, down) = (residual(1e-5), residual(-1e-5));
     for (row, ours) in rates.iter().enumerate() {
         let difference = (up[row] - down[row]) / 2e-5;
@@ -90,5 +100,6 @@ fn a_rod_that_touches_nothing_feels_nothing() {
     let none = Circles { all: Vec::new(), amount: 0.0 };
     let linear = MultiPoint { rod: Uniform, clamp: Pose { x: 0.0, y: 0.0, phi: 0.0 }, supports: &none }.linearise(&[]);
     let moved = linear.response(Pose { x: 1.0, y: 2.0, phi: 3.0 }, &[]).unwrap();
+    assert_eq!(linear.response_to_grips(&[]), Some(Response::default()));
     assert_eq!((moved, linear.condition(), linear.residual()), (Response::default(), 1.0, 0.0));
 }
