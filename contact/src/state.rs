@@ -93,13 +93,13 @@ pub struct ContactFriction {
     pub force: f64,
     /// Slip coordinate, m: arc length of the contour at the contact, from parameter 0 of the piece or from its start, plus the arc length
     /// from there to the rod's tip in the contour's sense. It grows as the rod slips forward, falls as it slips backward, and stays as it sticks. It means
-    /// nothing but by its differences between states on one piece.
+    /// nothing but by its differences between states on one piece. 0 where contacts slide whatever their motion.
     pub slip: f64,
 }
 
 impl Contact {
     /// The whole force on the rod: with friction it is not across the contour.
-    pub(crate) fn load(&self) -> Load {
+    pub fn load(&self) -> Load {
         let friction = self.friction.map_or(0.0, |friction| friction.force);
         if friction == 0.0 {
             return Load { s: self.s, force: self.force, alpha: self.alpha };

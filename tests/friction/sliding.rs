@@ -1,8 +1,8 @@
 //! Contacts that slide the same way along the rod, against sweeps with Coulomb friction.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
 use rod_contours::{CircularArc, Composite, Contour, Parabola};
 use rod_core::{Pose, Reactions, Rod};
+use std::f64::consts::{FRAC_PI_2, TAU};
 use vibrissa::contact::{ClampPath, EventKind, Follower, State, Sweep};
 
 fn clamp(x: f64) -> Pose {

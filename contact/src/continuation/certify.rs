@@ -110,7 +110,8 @@ fn friction(
         Grip::Slips { ratio } if ratio < 0.0 => SlipMode::Forward,
         Grip::Slips { .. } => SlipMode::Backward,
     };
-    let slip = slip_coordinate(world, configuration, j) * length;
+    // that takes the length of the contour
+    let slip = if world.sliding() == 0.0 { slip_coordinate(world, configuration, j) * length } else { 0.0 };
     Some(ContactFriction { mode, force: configuration.friction(j) * force, slip })
 }
 

@@ -3,7 +3,7 @@
 use super::contact_rates::ContactRates;
 use super::distinct::Distinct;
 use super::doubt::{Margins, probabilities};
-use super::forward::Forward;
+use super::forward::{Forward, Place};
 use super::problem::{Fit, Model};
 use crate::phase::Label;
 use crate::pipeline::{Reading, Reason};
@@ -56,16 +56,19 @@ impl<R: PhysicalRod> Fit<'_, R> {
             }
             // the errors of the samples of a block are about those of its mean
             let mean = block.clamp.pose;
-            let pose = |sample: &Sample| Pose {
-                x: state.pose.x + sample.pose.x - mean.x * length,
-                y: state.pose.y + sample.pose.y - mean.y * length,
-                phi: state.pose.phi + sample.pose.phi - mean.z,
+            let place = |sample: &Sample| Place {
+                pose: Pose {
+                    x: state.pose.x + sample.pose.x - mean.x * length,
+                    y: state.pose.y + sample.pose.y - mean.y * length,
+                    phi: state.pose.phi + sample.pose.phi - mean.z,
+                },
+                friction: model.corrected[k].friction,
             };
-            let poses: Vec<Pose> = samples[block.samples.clone()].iter().map(pose).collect();
-            let mut found = vec![None; poses.len()];
-            let middle = poses.len() / 2;
-            forward.follow(state, middle..poses.len(), &poses, &mut found);
-            forward.follow(state, (0..middle).rev(), &poses, &mut found);
+            let places: Vec<Place> = samples[block.samples.clone()].iter().map(place).collect();
+            let mut found = vec![None; places.len()];
+            let middle = places.len() / 2;
+            forward.follow(state, middle..places.len(), &places, &mut found);
+            forward.follow(state, (0..middle).rev(), &places, &mut found);
             for (answer, state) in answers[block.samples.clone()].iter_mut().zip(&found) {
                 let told = |state: &State| {
                     let contacts = model.bent_contacts(k, &state.contacts, length);
@@ -112,7 +115,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 x: contact.x * longer,
                 y: contact.y * longer,
                 alpha: contact.alpha,
-                force: contact.force * stiffer / (longer * longer),
+                force: contact.load().force * stiffer / (longer * longer),
                 covariance: covariance + spread,
                 systematic,
             })

@@ -48,6 +48,8 @@ pub(super) struct Block {
     pub motion: Vector3<f64>,
     /// Half of the way of the pose from its first sample to its last.
     pub half: Vector3<f64>,
+    /// 1 where friction draws the rod towards its tip in its pass, -1 where it holds it back; 0 without friction.
+    pub drawn: f64,
     /// Standard deviations of its reactions.
     pub sigma: Vector3<f64>,
     /// Relative variance of the mean of their squares, which are estimated.
@@ -145,7 +147,9 @@ impl Blocks {
                 continue;
             };
             frame = frame.or(Some(own));
+            let first = blocks.len();
             cut.pass(pass.samples.clone(), before, (&track, &indices), &mut blocks, &mut segments);
+            blocks[first..].iter_mut().for_each(|block: &mut Block| block.drawn = pass.drawn());
             before += to - from;
         }
         as_scattered(&mut blocks);
@@ -181,7 +185,8 @@ impl Blocks {
 impl Block {
     /// Pose and reactions that it may have, without errors.
     pub fn corrected(&self, clamp: &Clamp, correction: &Correction) -> Clamp {
-        correction.apply(self.tau, clamp, &still(self.motion)).0
+        let clamp = correction.apply(self.tau, clamp, &still(self.motion)).0;
+        Clamp { friction: self.drawn * clamp.friction, ..clamp }
     }
 
     /// Size of its reactions less others, in standard deviations.
@@ -335,6 +340,7 @@ impl Cut<'_> {
             tau: before + usable.iter().map(|i| track.tau[*i]).sum::<f64>() / count,
             clamp,
             motion: motion(track, usable[usable.len() / 2]),
+            drawn: 0.0,
             half: 0.5 * (track.clamps[usable[usable.len() - 1]].pose - track.clamps[usable[0]].pose),
             sigma,
             // the channels are independent

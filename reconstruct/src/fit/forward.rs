@@ -2,7 +2,7 @@
 
 use super::blocks::Blocks;
 use super::curve::Curve;
-use rod_contact::{Contact, ContactKind, Follower, State, equilibrium};
+use rod_contact::{Contact, ContactKind, Follower, State, sliding_equilibrium};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Reactions};
 use std::ops::Range;
@@ -18,6 +18,14 @@ const MOST_STEPS: u64 = 60;
 /// Distance from a vertex, rod lengths, within which a contact may be one at the vertex: points are known to so much at the start.
 pub(super) const NEAR_VERTEX: f64 = 0.02;
 
+/// Where the clamp of a rod is, whose contacts slide.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub pose: Pose,
+    /// The coefficient of friction, positive where it draws the rod towards its tip.
+    pub friction: f64,
+}
+
 /// A rod past a contour, both in units in which the given rod has its own length and stiffness.
 pub(super) struct Forward<'a, R> {
     pub rod: &'a R,
@@ -26,17 +34,17 @@ pub(super) struct Forward<'a, R> {
 }
 
 impl<R: PhysicalRod> Forward<'_, R> {
-    /// The states at the poses of all blocks, each segment followed from equilibria of its own to both sides. So a snap of the model at
+    /// The states at the places of all blocks, each segment followed from equilibria of its own to both sides. So a snap of the model at
     /// another pose than that of the recording does not spoil what comes after it. None where no branch reaches; a segment in which nothing
     /// is known of any contact has no states, nor has a block that is not `asked` for. `known` are states of a contour near by.
     pub fn states(
         &self,
         blocks: &Blocks,
         asked: &[bool],
-        poses: &[Pose],
+        places: &[Place],
         known: &[Option<State>],
     ) -> Vec<Option<State>> {
-        let mut found: Vec<Option<State>> = vec![None; poses.len()];
+        let mut found: Vec<Option<State>> = vec![None; places.len()];
         for segment in &blocks.runs(asked) {
             let mut failed = vec![false; segment.len()];
             for _ in 0..ANCHORS {
@@ -56,7 +64,7 @@ impl<R: PhysicalRod> Forward<'_, R> {
                 // where a hollow has gone, one contact does what several did
                 let whole = resultant(known);
                 let mut guesses = [known, local, whole.as_slice()].into_iter().filter(|guess| !guess.is_empty());
-                let state = guesses.find_map(|guess| self.equilibrium(poses[anchor], guess));
+                let state = guesses.find_map(|guess| self.equilibrium(places[anchor], guess));
                 let Some(state) = state else {
                     // what is wrong there is wrong near by
                     let near = segment.len() / SPREAD;
@@ -64,8 +72,8 @@ impl<R: PhysicalRod> Forward<'_, R> {
                     failed[at.saturating_sub(near)..(at + near + 1).min(segment.len())].fill(true);
                     continue;
                 };
-                self.follow(&state, anchor + 1..segment.end, poses, &mut found);
-                self.follow(&state, (segment.start..anchor).rev(), poses, &mut found);
+                self.follow(&state, anchor + 1..segment.end, places, &mut found);
+                self.follow(&state, (segment.start..anchor).rev(), places, &mut found);
                 found[anchor] = Some(state);
             }
             let is_touching = |k: &usize| !blocks.blocks[*k].contacts.is_empty() || known[*k].is_some();
@@ -75,9 +83,9 @@ impl<R: PhysicalRod> Forward<'_, R> {
                 && segment.clone().any(|k| is_touching(&k))
                 && let Some(before) = found[segment.start - 1].clone()
             {
-                let landed = self.landed(&before, segment.clone(), poses);
+                let landed = self.landed(&before, segment.clone(), places);
                 if let Some((k, state)) = landed {
-                    self.follow(&state, k + 1..segment.end, poses, &mut found);
+                    self.follow(&state, k + 1..segment.end, places, &mut found);
                     found[k] = Some(state);
                 }
             }
@@ -87,10 +95,10 @@ impl<R: PhysicalRod> Forward<'_, R> {
 
     /// The mean reactions over the poses `half` before to `half` after that of a state, as a block of samples has where contacts form or let go
     /// inside it. None where the rod jumps there.
-    pub fn mean_reactions(&self, state: &State, half: [f64; 3]) -> Option<Reactions> {
+    pub fn mean_reactions(&self, state: &State, friction: f64, half: [f64; 3]) -> Option<Reactions> {
         let Reactions { mut f0x, mut f0y, mut m0z } = state.reactions;
         for sense in [-1.0, 1.0] {
-            let mut follower = self.follower(state)?;
+            let mut follower = self.follower(state, friction)?;
             for part in 1..=PARTS {
                 let share = sense * (part as f64 - 0.25) / (PARTS as f64 + 0.25);
                 let Pose { x, y, phi } = state.pose;
@@ -105,40 +113,52 @@ impl<R: PhysicalRod> Forward<'_, R> {
     }
 
     /// The equilibrium with about these contacts, if the rod can be there.
-    fn equilibrium(&self, pose: Pose, guess: &[Contact]) -> Option<State> {
+    fn equilibrium(&self, at: Place, guess: &[Contact]) -> Option<State> {
         let near = NEAR_VERTEX * self.rod.units().length;
         let guess: Vec<Contact> = guess.iter().map(|contact| self.curve.place(contact, near)).collect::<Option<_>>()?;
-        let found = equilibrium(self.rod, self.objects, pose, &guess).ok()?;
+        let found = sliding_equilibrium(self.rod, self.objects, at.pose, &guess, at.friction).ok()?;
         found.is_admissible().ok()?;
         Some(found.state)
     }
 
     /// Follows the rod from a state on, up to where it jumps.
-    fn follower(&self, from: &State) -> Option<Follower<'_, R>> {
-        let follower = Follower::from_state(self.rod, self.objects, from).ok()?;
-        Some(follower.without_jumps().with_most_steps(MOST_STEPS))
+    fn follower(&self, from: &State, friction: f64) -> Option<Follower<'_, R>> {
+        Some(self.jumping(from, friction)?.without_jumps())
+    }
+
+    /// The same also where it jumps.
+    fn jumping(&self, from: &State, friction: f64) -> Option<Follower<'_, R>> {
+        let follower = Follower::from_state(self.rod, self.objects, from).ok()?.with_most_steps(MOST_STEPS);
+        follower.sliding(friction).ok()
     }
 
     /// Where the rod lands that jumps on its way from a state: the first block after the jump, and the state there.
-    fn landed(&self, from: &State, way: Range<usize>, poses: &[Pose]) -> Option<(usize, State)> {
-        let mut follower = self.follower(from)?;
+    fn landed(&self, from: &State, way: Range<usize>, places: &[Place]) -> Option<(usize, State)> {
+        let friction = places.get(way.start)?.friction;
+        let mut follower = self.follower(from, friction)?;
         for k in way {
             let before = follower.state().clone();
-            if follower.to(poses[k]).is_err() {
-                let mut jumping =
-                    Follower::from_state(self.rod, self.objects, &before).ok()?.with_most_steps(MOST_STEPS);
-                jumping.to(poses[k]).ok()?;
+            if follower.to(places[k].pose).is_err() {
+                let mut jumping = self.jumping(&before, friction)?;
+                jumping.to(places[k].pose).ok()?;
                 return Some((k, jumping.state().clone()));
             }
         }
         None
     }
 
-    /// Follows the rod from a state until it jumps, cannot be followed, or comes to a pose whose state is known.
-    pub fn follow(&self, from: &State, way: impl Iterator<Item = usize>, poses: &[Pose], found: &mut [Option<State>]) {
-        let Some(mut follower) = self.follower(from) else { return };
-        for k in way {
-            if follower.to(poses[k]).is_err() || found[k].is_some() {
+    /// Follows the rod from a state until it jumps, cannot be followed, or comes to a place whose state is known. Friction is the same along the way.
+    pub fn follow(
+        &self,
+        from: &State,
+        mut way: impl Iterator<Item = usize>,
+        places: &[Place],
+        found: &mut [Option<State>],
+    ) {
+        let Some(first) = way.next() else { return };
+        let Some(mut follower) = self.follower(from, places[first].friction) else { return };
+        for k in std::iter::once(first).chain(way) {
+            if follower.to(places[k].pose).is_err() || found[k].is_some() {
                 return;
             }
             found[k] = Some(follower.state().clone());

@@ -11,7 +11,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
     /// The mean reactions of each block, dimensionless: those at its mean pose, to second order in its way, and the mean of states along it where contacts
     /// change. None where the rod jumps inside it.
     pub fn means(&self, model: &Model) -> Vec<Option<Vector3<f64>>> {
-        let Model { curve, objects, states, .. } = model;
+        let Model { curve, objects, states, corrected, .. } = model;
         let (forward, units) = (Forward { rod: self.rod, curve, objects }, self.rod.units());
         let at: Vec<Vector3<f64>> = (0..states.len()).map(|k| self.reactions(k, model)).collect();
         let blocks = &self.blocks.blocks;
@@ -20,7 +20,8 @@ impl<R: PhysicalRod> Fit<'_, R> {
                 let Some(state) = &states[k] else { return Some(at[k]) };
                 let half = blocks[k].half;
                 if changes_inside(states, k) {
-                    let mean = forward.mean_reactions(state, [half.x * units.length, half.y * units.length, half.z])?;
+                    let half = [half.x * units.length, half.y * units.length, half.z];
+                    let mean = forward.mean_reactions(state, corrected[k].friction, half)?;
                     return Some(Clamp::new(units, state.pose, mean).reactions + model.bend(k, units));
                 }
                 let segment = self.blocks.segment_of(k);

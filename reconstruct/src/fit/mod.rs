@@ -48,7 +48,7 @@ use crate::phase::Label;
 use crate::pipeline::{Reading, Reconstruction};
 use crate::systematic::Source;
 use blocks::Blocks;
-use nalgebra::{DVector, Vector2};
+use nalgebra::Vector2;
 use needed::with_fewest_errors;
 use piece::Piece;
 use problem::Sources;
@@ -74,9 +74,6 @@ pub enum FitError {
     /// The local answer has no contact point.
     #[error("no contact point is known, so that the fit has no start")]
     NoContacts,
-    /// With friction the states of a rod depend on the whole way of the clamp.
-    #[error("recordings with friction cannot be fitted")]
-    Friction,
     /// Each sample tells its contact point more exactly than the points of a spline can.
     #[error("without noise the contact points of the single samples are more accurate than a fit")]
     Exact,
@@ -216,9 +213,6 @@ pub fn fit_contours<R: PhysicalRod>(
     recordings: &[(&[Sample], &Reconstruction)],
 ) -> Result<Vec<ContourFit>, FitError> {
     let locals: Vec<&Reconstruction> = recordings.iter().map(|(_, local)| *local).collect();
-    if locals.iter().flat_map(|local| &local.passes).any(|pass| pass.used_friction != 0.0) {
-        return Err(FitError::Friction);
-    }
     if recordings.iter().all(|(samples, local)| blocks::is_exact(rod.units(), samples, local)) {
         return Err(FitError::Exact);
     }
@@ -234,10 +228,10 @@ pub fn fit_contours<R: PhysicalRod>(
     }
     let exact = sources.exact();
     // errors that the recording does not ask for would move its contour as far as they are uncertain
-    let are_free = locals.iter().any(|local| local.is_corrected()) || sources.free.is_empty();
+    let are_free = locals.iter().any(|local| local.is_corrected()) || sources.free.len() == exact.free.len();
     let (first, at_first, evaluations) = match are_free {
         true => (&sources, errors.clone(), MOST_EVALUATIONS),
-        false => (&exact, DVector::zeros(0), WITHOUT_ERRORS),
+        false => (&exact, sources.of_free(&errors, &exact), WITHOUT_ERRORS),
     };
     let search = Search { rod, sources: first, errors: &at_first, evaluations };
     let (mut best, blocks) = best_of(&starts, search).ok_or(FitError::NoStart)?;

@@ -45,8 +45,8 @@ impl Posterior {
         self.without(free).map_or(f64::INFINITY, |(freedom, rise)| rise + freedom + 2.0 * fewer)
     }
 
-    /// The most probable set near one: no single error more or less, and no other one in place of one, is more probable.
-    fn most_probable_near(&self, mut free: Free) -> (f64, Free) {
+    /// The most probable set near one: none of the errors that may be fixed more or less, and no other one in place of one, is more probable.
+    fn most_probable_near(&self, mut free: Free, may_be_fixed: &[usize]) -> (f64, Free) {
         let mut penalty = self.penalty(&free);
         loop {
             let flipped = |numbers: &[usize]| {
@@ -54,10 +54,10 @@ impl Posterior {
                 numbers.iter().for_each(|i| other[*i] = !other[*i]);
                 (self.penalty(&other), other)
             };
-            let exchanges =
-                numbers(&free, true).into_iter().flat_map(|i| numbers(&free, false).into_iter().map(move |j| [i, j]));
+            let (ones, others): (Vec<usize>, Vec<usize>) = may_be_fixed.iter().partition(|i| free[**i]);
+            let exchanges = ones.iter().flat_map(|i| others.iter().map(move |j| [*i, *j]));
             let exchanges = exchanges.map(|pair| flipped(&pair));
-            let all = (0..free.len()).map(|i| flipped(&[i])).chain(exchanges);
+            let all = may_be_fixed.iter().map(|i| flipped(&[*i])).chain(exchanges);
             match all.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|best| best.0 < penalty) {
                 Some(best) => (penalty, free) = best,
                 None => return (penalty, free),
@@ -66,12 +66,17 @@ impl Posterior {
     }
 
     /// The sets that are more probable than all errors of the fit, the most probable one first: near none, the biases, all errors of the scan, and all.
+    /// Friction is in each: it is estimated because it was asked for.
     pub fn sets(&self, sources: &Sources) -> Vec<Free> {
         let starts: [fn(Source) -> bool; 4] =
             [|_| false, |source| source <= Source::BiasM0z, Source::is_of_scan, |_| true];
-        let start = |is_free: &fn(Source) -> bool| sources.free.iter().map(|error| is_free(error.source)).collect();
-        let mut sets: Vec<(f64, Free)> =
-            starts.iter().map(|is_free| self.most_probable_near(start(is_free))).filter(|set| set.0 < 0.0).collect();
+        let rubs = |i: &usize| sources.free[*i].source == Source::Friction;
+        let may_be_fixed: Vec<usize> = (0..sources.free.len()).filter(|i| !rubs(i)).collect();
+        let near = |is_free: &fn(Source) -> bool| {
+            let start = (0..sources.free.len()).map(|i| rubs(&i) || is_free(sources.free[i].source)).collect();
+            self.most_probable_near(start, &may_be_fixed)
+        };
+        let mut sets: Vec<(f64, Free)> = starts.iter().map(near).filter(|set| set.0 < 0.0).collect();
         sets.sort_by(|a, b| a.0.total_cmp(&b.0));
         sets.dedup_by(|a, b| a.1 == b.1);
         sets.into_iter().map(|set| set.1).collect()

@@ -3,10 +3,10 @@
 use super::blocks::{Block, Blocks};
 use super::contact_rates::ContactRates;
 use super::curve::Curve;
-use super::forward::Forward;
+use super::forward::{Forward, Place};
 use crate::least_squares::{Loss, NormalMatrix, Problem};
 use crate::phase::Label;
-use crate::pipeline::Reconstruction;
+use crate::pipeline::{Pass, Reconstruction};
 use crate::point::Clamp;
 use crate::systematic::{Correction, Errors, Source};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
@@ -73,12 +73,17 @@ impl Sources {
         let (mut known, mut start) = (vec![Errors::zeros(); locals.len()], vec![Errors::zeros(); locals.len()]);
         for (local, (known, start)) in locals.iter().zip(known.iter_mut().zip(&mut start)) {
             for estimate in local.calibration().iter().flat_map(|calibration| &calibration.sources) {
-                // the rod of the model has no friction
-                if estimate.source != Source::Friction {
-                    let (k, unit) = (estimate.source as usize, estimate.source.unit(rod));
-                    (known[k], start[k]) = (estimate.known / unit, estimate.taken / unit);
-                    sigmas[k] = sigmas[k].max(estimate.budget / unit);
-                }
+                let (k, unit) = (estimate.source as usize, estimate.source.unit(rod));
+                (known[k], start[k]) = (estimate.known / unit, estimate.taken / unit);
+                sigmas[k] = sigmas[k].max(estimate.budget / unit);
+            }
+            // its sign is that of the passes
+            let k = Source::Friction as usize;
+            let rubbing = local.passes.iter().find(|pass| pass.drawn() != 0.0);
+            let sign = rubbing.map_or(0.0, Pass::drawn);
+            (known[k], start[k]) = (sign * known[k], sign * start[k]);
+            if let Some(pass) = rubbing.filter(|pass| pass.calibration.is_none()) {
+                (known[k], start[k]) = (pass.used_friction.abs(), pass.used_friction.abs());
             }
         }
         let of_source = |source: &Source| {
@@ -103,9 +108,16 @@ impl Sources {
         self.free.iter().position(|error| error.source == source)
     }
 
-    /// The same, with all errors as they are known.
+    /// The same, with all errors as they are known but for friction, which is none of the sensor, rod or stage.
     pub fn exact(&self) -> Self {
-        Self { free: Vec::new(), ..self.clone() }
+        let free = self.free.iter().filter(|error| error.source == Source::Friction).copied().collect();
+        Self { free, ..self.clone() }
+    }
+
+    /// Of the errors that are free here those that are free there.
+    pub fn of_free(&self, errors: &DVector<f64>, there: &Self) -> DVector<f64> {
+        let kept = self.free.iter().zip(errors.iter()).filter(|(error, _)| there.free.contains(error));
+        DVector::from_iterator(there.free.len(), kept.map(|(_, off)| *off))
     }
 
     /// The errors of each recording that are so many standard deviations of their budget off what is known.
@@ -183,6 +195,8 @@ impl Explained {
 pub(super) struct Corrected {
     /// m, rad.
     pub pose: Pose,
+    /// The coefficient with which its contacts slide, positive where friction draws the rod towards its tip.
+    pub friction: f64,
     pub reactions: Vector3<f64>,
     /// Derivatives of the reactions and of the pose by the measured reactions.
     by_reactions: Matrix3<f64>,
@@ -243,10 +257,12 @@ impl Model {
     }
 }
 
-/// Derivatives of the reactions of a state: by the pose, and by the offsets of the points of the contour that it feels.
+/// Derivatives of the reactions of a state: by the pose, the coefficient with which its contacts slide, and the offsets of the points of the contour that
+/// it feels.
 #[derive(Default)]
 struct Rates {
     by_pose: Matrix3<f64>,
+    by_friction: Vector3<f64>,
     by_offsets: Vec<(usize, Vector3<f64>)>,
 }
 
@@ -309,21 +325,20 @@ impl<R: PhysicalRod> Fit<'_, R> {
     /// A block without its errors.
     fn without(&self, block: &Block, correction: &Correction) -> Corrected {
         let length = self.rod.units().length;
-        let apply = |clamp: &Clamp| {
-            let clamp = block.corrected(clamp, correction);
-            (Vector3::new(clamp.pose.x * length, clamp.pose.y * length, clamp.pose.z), clamp.reactions)
-        };
-        let (pose, reactions) = apply(&block.clamp);
+        let in_metres = |pose: Vector3<f64>| Vector3::new(pose.x * length, pose.y * length, pose.z);
+        let Clamp { pose, reactions, friction, .. } = block.corrected(&block.clamp, correction);
+        let pose = in_metres(pose);
         let (mut by_reactions, mut pose_by_reactions) = (Matrix3::zeros(), Matrix3::zeros());
         // the correction is linear in the reactions
         for c in 0..3 {
             let mut other = block.clamp;
             other.reactions[c] += 1.0;
-            let (there, shown) = apply(&other);
-            by_reactions.set_column(c, &(shown - reactions));
-            pose_by_reactions.set_column(c, &(there - pose));
+            let there = block.corrected(&other, correction);
+            by_reactions.set_column(c, &(there.reactions - reactions));
+            pose_by_reactions.set_column(c, &(in_metres(there.pose) - pose));
         }
-        Corrected { pose: Pose { x: pose.x, y: pose.y, phi: pose.z }, reactions, by_reactions, pose_by_reactions }
+        let pose = Pose { x: pose.x, y: pose.y, phi: pose.z };
+        Corrected { pose, friction, reactions, by_reactions, pose_by_reactions }
     }
 
     /// The reactions at a block of a model, dimensionless.
@@ -337,9 +352,10 @@ impl<R: PhysicalRod> Fit<'_, R> {
     pub fn model(&self, x: &DVector<f64>) -> Option<Model> {
         let curve = self.curve.moved(x.rows(0, self.curve.count()).into_owned())?;
         let mut model = self.model_with(x, curve, Vec::new())?;
-        let poses: Vec<Pose> = model.corrected.iter().map(|one| one.pose).collect();
+        let place = |one: &Corrected| Place { pose: one.pose, friction: one.friction };
+        let places: Vec<Place> = model.corrected.iter().map(place).collect();
         let forward = Forward { rod: self.rod, curve: &model.curve, objects: &model.objects };
-        model.states = forward.states(self.blocks, &self.asked, &poses, &self.states);
+        model.states = forward.states(self.blocks, &self.asked, &places, &self.states);
         model.by_natural = self.by_natural(&model);
         Some(model)
     }
@@ -405,6 +421,11 @@ impl<R: PhysicalRod> Fit<'_, R> {
         stiffness.map_or_else(|_| Matrix3::zeros(), |by| Matrix3::from_fn(|c, j| by[c][j] / size[c]))
     }
 
+    /// Whether a coefficient of friction is one of the unknowns.
+    fn rubs(&self) -> bool {
+        self.sources.free.iter().any(|error| error.source == Source::Friction)
+    }
+
     /// None at a fold.
     fn rates(&self, Model { curve, objects, .. }: &Model, state: &State) -> Option<Rates> {
         let units = self.rod.units();
@@ -412,12 +433,15 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let stiffness = derivatives.stiffness().ok()?;
         let size = Vector3::new(units.force, units.force, units.moment);
         let is_near = |rate: &SupportRate| rate.x.hypot(rate.y) > FAR || rate.alpha.abs() * units.length > FAR;
-        let by_offsets = by_offsets(&derivatives, curve, state, is_near).into_iter().map(|(i, response)| {
-            let by = response.reactions;
-            (i, Vector3::new(by.f0x, by.f0y, by.m0z).component_div(&size))
-        });
-        let by_offsets = by_offsets.collect();
-        Some(Rates { by_pose: Matrix3::from_fn(|c, j| stiffness[c][j] / size[c]), by_offsets })
+        let felt = |Response { reactions: Reactions { f0x, f0y, m0z }, .. }: &Response| {
+            Vector3::new(*f0x, *f0y, *m0z).component_div(&size)
+        };
+        let by_offsets = by_offsets(&derivatives, curve, state, is_near);
+        Some(Rates {
+            by_pose: Matrix3::from_fn(|c, j| stiffness[c][j] / size[c]),
+            by_friction: if self.rubs() { felt(&derivatives.by_sliding().ok()?) } else { Vector3::zeros() },
+            by_offsets: by_offsets.iter().map(|(i, response)| (*i, felt(response))).collect(),
+        })
     }
 
     /// For each error, what takes the errors off each recording if this one is a step larger.
@@ -475,10 +499,14 @@ impl<R: PhysicalRod> Fit<'_, R> {
         by_offsets(&derivatives, curve, state, |_| true).iter().for_each(|(i, response)| add(*i, response, 1.0));
         let moves = [Quantity::ClampX, Quantity::ClampY, Quantity::ClampAngle];
         let by_pose: Vec<Response> = moves.into_iter().filter_map(|by| derivatives.by(by).ok()).collect();
+        let by_friction = if self.rubs() { derivatives.by_sliding().ok() } else { None };
         for (i, other) in self.with_steps(&self.blocks.blocks[block], stepped) {
             let (from, to) = (corrected[block].pose, other.pose);
             for (response, moved) in by_pose.iter().zip([to.x - from.x, to.y - from.y, to.phi - from.phi]) {
                 add(curve.count() + i, response, moved / STEP);
+            }
+            if let Some(by_friction) = &by_friction {
+                add(curve.count() + i, by_friction, (other.friction - corrected[block].friction) / STEP);
             }
         }
         let response = by_natural.get(block).and_then(Option::as_ref);
@@ -507,7 +535,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
             let (here, model) = (&corrected[k], means[k].unwrap_or_else(|| self.reactions(k, at)));
             let mut by: [Vec<(usize, f64)>; 3] = Default::default();
             let touching = state.filter(|state| !state.contacts.is_empty());
-            let Rates { by_pose, by_offsets } = match touching {
+            let Rates { by_pose, by_friction, by_offsets } = match touching {
                 Some(state) => self.rates(at, state)?,
                 None => Rates::default(),
             };
@@ -525,7 +553,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
                     Source::NaturalCurvature => {
                         by_natural * (self.sources.sigmas[Source::NaturalCurvature as usize] * STEP)
                     }
-                    _ => Vector3::zeros(),
+                    _ => by_friction * (there.friction - here.friction),
                 };
                 let rate = (there.residual(&(model + by_pose * moved + bent), &by_pose, block) - residual) / STEP;
                 (0..3).for_each(|c| by[c].push((first + i, rate[c])));

@@ -38,6 +38,38 @@ pub struct Pass {
     pub friction: Option<FrictionEstimate>,
 }
 
+impl Pass {
+    /// 1 where friction draws the rod towards its tip, -1 where it holds it back, 0 without friction.
+    pub(crate) fn drawn(&self) -> f64 {
+        if self.used_friction == 0.0 { 0.0 } else { self.used_friction.signum() }
+    }
+
+    /// Takes the errors of a fit for its own: those of friction have the sign of the pass.
+    fn adopt(&mut self, errors: &[(Source, f64, f64)]) {
+        let drawn = self.drawn();
+        let found = |source: Source| {
+            let (_, value, sigma) = errors.iter().find(|error| error.0 == source)?;
+            Some((if source == Source::Friction { drawn * value } else { *value }, *sigma))
+        };
+        for estimate in self.calibration.iter_mut().flat_map(|one| &mut one.sources) {
+            match found(estimate.source) {
+                Some((value, sigma)) => {
+                    (estimate.value, estimate.taken, estimate.sigma) = (value, value, estimate.sigma.max(sigma));
+                }
+                // the contour is that of the errors as they are known
+                None if estimate.source != Source::Friction => estimate.taken = estimate.known,
+                None => {}
+            }
+        }
+        if let Some((mu, sigma)) = found(Source::Friction).filter(|_| drawn != 0.0) {
+            self.used_friction = mu;
+            if let Some(friction) = &mut self.friction {
+                (friction.mu, friction.sigma) = (mu, friction.sigma.max(sigma));
+            }
+        }
+    }
+}
+
 /// The result of a reconstruction.
 #[derive(Clone, Debug)]
 pub struct Reconstruction {
@@ -129,18 +161,7 @@ impl Reconstruction {
         }
         let used = self.readings.iter().enumerate().filter(|(_, one)| !matches!(one.touch, Err(Reason::Fault(_))));
         self.runs = runs(used.map(|(number, one)| (number, one.label)));
-        let sources =
-            self.passes.iter_mut().filter_map(|pass| pass.calibration.as_mut()).flat_map(|one| &mut one.sources);
-        for estimate in sources {
-            match fit.errors.iter().find(|error| error.0 == estimate.source) {
-                Some((_, value, sigma)) => {
-                    (estimate.value, estimate.taken, estimate.sigma) = (*value, *value, estimate.sigma.max(*sigma));
-                }
-                // the contour is that of the errors as they are known
-                None if estimate.source != Source::Friction => estimate.taken = estimate.known,
-                None => {}
-            }
-        }
+        self.passes.iter_mut().for_each(|pass| pass.adopt(&fit.errors));
     }
 
     /// The contour: contact points assembled into stretches, and the gaps between them.
