@@ -36,7 +36,7 @@ Writes points.jsonl (one object for each row of the recording, in order: clamp p
 reason where there is no answer), contour.csv (stretches of the contour; gaps stay gaps) and report.json (rows, noise,
 labels, kinks, gaps, a check by the physics and, with --truth, errors), SI units throughout. One contour is fitted to the whole
 recording (fitted.csv). If it explains the recording, labels and points are those of the rod past it; if none does, the place where
-the fit fails is named (status 2). With friction, and without noise, nothing is fitted.
+the fit fails is named (status 2). Without noise nothing is fitted.
 
 Several recordings are of one object, with one rod in one frame. One contour is fitted to all of them; if none explains all, each keeps
 its own. Each recording has a folder of its name, and contour.csv, contour.svg and merged.json beside the folders are of all of them.";

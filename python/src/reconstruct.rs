@@ -190,7 +190,7 @@ impl PyReconstruction {
         self.found.findings().map(Finding::to_string).collect()
     }
 
-    /// Whether one contour explains the whole recording; None where none was fitted: without ``fit``, with friction, without noise, and where
+    /// Whether one contour explains the whole recording; None where none was fitted: without ``fit``, without noise, and where
     /// signs, units or rod are wrong. Where it does, labels, points, contour and errors are its own.
     #[getter]
     fn is_explained(&self) -> Option<bool> {
@@ -361,7 +361,7 @@ fn recording(samples: Samples) -> Recording {
 /// fit : bool, optional
 ///     Fit one contour to the whole recording, which takes seconds, or a minute where none explains it. Where one does, labels, points,
 ///     contour and errors are its own; else a warning says where it fails. Without it samples are answered from their neighbours alone,
-///     in a fraction of a second. With friction, and without noise, nothing is fitted.
+///     in a fraction of a second. Without noise nothing is fitted.
 ///
 /// Returns
 /// -------

@@ -79,9 +79,15 @@ impl Reconstructed {
         self.check.findings.iter().all(|finding| !finding.is_misfit() || self.is_answered(finding))
     }
 
-    /// Whether a contour that explains the recording answers a misfit: any, if it needs no errors, and else those of the line of tangential contacts.
+    /// Whether a contour that explains the recording answers a misfit: any, if it needs no errors besides friction, and else those of the line of tangential
+    /// contacts. It does not answer that it has friction which was not asked for.
     fn is_answered(&self, finding: &Finding) -> bool {
-        let answers = |fit: &ContourFit| fit.goodness.explains && (fit.errors.is_empty() || finding.is_of_line());
+        let answers = |fit: &ContourFit| {
+            let is_friction = |error: &(Source, f64, f64)| error.0 == Source::Friction;
+            let tells = matches!(finding, Finding::Friction { .. }) && fit.friction_beside_errors().is_some();
+            let is_of_line = || fit.errors.iter().all(is_friction) || finding.is_of_line();
+            fit.goodness.explains && !tells && is_of_line()
+        };
         self.fitted().is_some_and(answers)
     }
 

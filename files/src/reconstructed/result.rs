@@ -6,9 +6,9 @@ use std::ops::Range;
 use std::path::PathBuf;
 use vibrissa::reconstruct::kink::Kink;
 use vibrissa::reconstruct::{
-    Assembly, Budget, ContourEstimate, ContourFit, Explanation, Finding, FitError, Plausibility, ReconstructError,
-    Reconstruction, Travel, explanations, fit_contour, plausibility_with_friction, reconstruct_general,
-    reconstruct_passes,
+    Assembly, Budget, ContourEstimate, ContourFit, Explanation, Finding, FitError, Friction, Plausibility,
+    ReconstructError, Reconstruction, Travel, explanations, fit_contour, plausibility_with_friction,
+    reconstruct_general, reconstruct_passes,
 };
 use vibrissa::rod::{AnyRod, PhysicalRod};
 use vibrissa::{Label, Pose, Rod, Sample, Settings};
@@ -136,13 +136,21 @@ impl Reconstructed {
                 Finding::Uncertain { .. } => false,
                 // the local answer may miss the samples without contact that the contour has
                 Finding::NoFreeStretch => !is_free,
-                // of the corrections of the local answer: the contour has its own
-                Finding::Misfit { .. } => false,
+                // of the corrections and of the missing points of the local answer: the contour has its own
+                Finding::Misfit { .. } | Finding::Unanswered { .. } => false,
                 _ => !is_within(finding),
             });
             let kinks = fit.unexplained_kinks(&self.found.kinks, &self.found.readings).filter(|_| had_kinks);
             self.check.findings.extend(kinks);
             self.check.findings.extend(self.found.undetermined());
+            if settings.friction == Friction::None
+                && let Some((mu, sigma)) = fit.friction_beside_errors()
+            {
+                self.check.findings.retain(|finding| !matches!(finding, Finding::Friction { .. }));
+                // of the likelihood to second order
+                let gain = 0.5 * (mu / sigma).powi(2);
+                self.check.findings.push(Finding::Friction { mu, sigma, gain });
+            }
         }
         self.fit = Some(fit);
     }

@@ -48,7 +48,7 @@ pub(super) struct Block {
     pub motion: Vector3<f64>,
     /// Half of the way of the pose from its first sample to its last.
     pub half: Vector3<f64>,
-    /// 1 where friction draws the rod towards its tip in its pass, -1 where it holds it back; 0 without friction.
+    /// 1 where friction draws the rod towards its tip in its pass, -1 where it holds it back.
     pub drawn: f64,
     /// Standard deviations of its reactions.
     pub sigma: Vector3<f64>,
@@ -340,7 +340,7 @@ impl Cut<'_> {
             tau: before + usable.iter().map(|i| track.tau[*i]).sum::<f64>() / count,
             clamp,
             motion: motion(track, usable[usable.len() / 2]),
-            drawn: 0.0,
+            drawn: 1.0,
             half: 0.5 * (track.clamps[usable[usable.len() - 1]].pose - track.clamps[usable[0]].pose),
             sigma,
             // the channels are independent

@@ -46,10 +46,10 @@ pub use verdict::{Goodness, WorstWindow};
 
 use crate::phase::Label;
 use crate::pipeline::{Reading, Reconstruction};
-use crate::systematic::Source;
+use crate::systematic::{BEYOND, Source};
 use blocks::Blocks;
 use nalgebra::Vector2;
-use needed::with_fewest_errors;
+use needed::{with_fewest_errors, with_friction};
 use piece::Piece;
 use problem::Sources;
 use rod_contours::{Composite, Contour as _, ContourError};
@@ -172,6 +172,13 @@ pub struct ContourFit {
 }
 
 impl ContourFit {
+    /// The coefficient of friction that the recording asks for, with its standard deviation, in which other errors may be in its place: if it is more than three
+    /// of them. None where a smaller one, or none, explains the recording.
+    pub fn friction_beside_errors(&self) -> Option<(f64, f64)> {
+        let (_, mu, sigma) = self.errors.iter().find(|error| error.0 == Source::Friction)?;
+        (mu.abs() > BEYOND * sigma).then_some((*mu, *sigma))
+    }
+
     /// Samples along which the model has one phase, in order; none where it is not reached.
     pub fn runs(&self) -> Vec<(Range<usize>, Option<Label>)> {
         let mut runs: Vec<(Range<usize>, Option<Label>)> = Vec::new();
@@ -247,13 +254,15 @@ pub fn fit_contours<R: PhysicalRod>(
             (best, used) = (found, &sources);
         }
     }
-    let is_explained_by_errors = best.goodness.explains && !used.free.is_empty();
-    let fewer = if is_explained_by_errors { with_fewest_errors(rod, used, &best, blocks) } else { None };
     let samples: Vec<Sample> = recordings.iter().flat_map(|(samples, _)| *samples).copied().collect();
-    match fewer {
-        Some((best, sources)) => Ok(best.results(rod, &samples, blocks, &sources, &uniform)),
-        None => Ok(best.results(rod, &samples, blocks, used, &uniform)),
+    if !best.goodness.explains || used.free.is_empty() {
+        return Ok(best.results(rod, &samples, blocks, used, &uniform));
     }
+    // errors may be in the place of friction that was not asked for
+    let rubbing = if used.is_rough { None } else { with_friction(rod, used, &best, blocks) };
+    let (best, used) = rubbing.unwrap_or_else(|| (best, used.clone()));
+    let (best, used) = with_fewest_errors(rod, &used, &best, blocks).unwrap_or((best, used));
+    Ok(best.results(rod, &samples, blocks, &used, &uniform))
 }
 
 /// The best fit from some starts: the first that explains the recording, else the one of lowest cost. Those that first explain a part of it come

@@ -9,7 +9,24 @@ use super::blocks::Blocks;
 use super::posterior::numbers;
 use super::problem::{FreeError, Sources};
 use super::solve::{Search, Solved};
+use crate::systematic::BEYOND;
 use rod_core::PhysicalRod;
+
+/// The fit with friction besides all errors of another one, and these, where it is beyond what the errors leave open; none where it is not.
+pub(super) fn with_friction<R: PhysicalRod>(
+    rod: &R,
+    all: &Sources,
+    best: &Solved,
+    blocks: &Blocks,
+) -> Option<(Solved, Sources)> {
+    let sources = all.and_friction();
+    let errors = best.errors().resize_vertically(sources.free.len(), 0.0);
+    let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: AGAIN };
+    let found = search.continued(&best.curve, best, blocks).filter(|found| found.goodness.explains)?;
+    let posterior = found.posterior(sources.free.len());
+    let is_beyond = |i: usize| posterior.errors[i].abs() > BEYOND * posterior.covariance[(i, i)].sqrt();
+    (all.free.len()..sources.free.len()).any(is_beyond).then_some((found, sources))
+}
 
 /// The fit with the most probable free errors, and these, from a fit with all of them; none where none that explains the recording is more probable than
 /// that.

@@ -66,14 +66,14 @@ impl Posterior {
     }
 
     /// The sets that are more probable than all errors of the fit, the most probable one first: near none, the biases, all errors of the scan, and all.
-    /// Friction is in each: it is estimated because it was asked for.
+    /// What is always free is in each.
     pub fn sets(&self, sources: &Sources) -> Vec<Free> {
         let starts: [fn(Source) -> bool; 4] =
             [|_| false, |source| source <= Source::BiasM0z, Source::is_of_scan, |_| true];
-        let rubs = |i: &usize| sources.free[*i].source == Source::Friction;
-        let may_be_fixed: Vec<usize> = (0..sources.free.len()).filter(|i| !rubs(i)).collect();
+        let is_kept = |i: &usize| sources.is_always_free(&sources.free[*i]);
+        let may_be_fixed: Vec<usize> = (0..sources.free.len()).filter(|i| !is_kept(i)).collect();
         let near = |is_free: &fn(Source) -> bool| {
-            let start = (0..sources.free.len()).map(|i| rubs(&i) || is_free(sources.free[i].source)).collect();
+            let start = (0..sources.free.len()).map(|i| is_kept(&i) || is_free(sources.free[i].source)).collect();
             self.most_probable_near(start, &may_be_fixed)
         };
         let mut sets: Vec<(f64, Free)> = starts.iter().map(near).filter(|set| set.0 < 0.0).collect();

@@ -4,6 +4,7 @@ use super::blocks::{Block, Blocks};
 use super::contact_rates::ContactRates;
 use super::curve::Curve;
 use super::forward::{Forward, Place};
+use crate::friction::ANY;
 use crate::least_squares::{Loss, NormalMatrix, Problem};
 use crate::phase::Label;
 use crate::pipeline::{Pass, Reconstruction};
@@ -48,6 +49,8 @@ pub(super) struct Sources {
     pub known: Vec<Errors>,
     /// Those that are not known exactly.
     pub free: Vec<FreeError>,
+    /// Whether friction was asked for: then it is always free.
+    pub is_rough: bool,
 }
 
 /// An error that is not known exactly.
@@ -79,13 +82,14 @@ impl Sources {
             }
             // its sign is that of the passes
             let k = Source::Friction as usize;
-            let rubbing = local.passes.iter().find(|pass| pass.drawn() != 0.0);
+            let rubbing = local.passes.iter().find(|pass| pass.used_friction != 0.0);
             let sign = rubbing.map_or(0.0, Pass::drawn);
             (known[k], start[k]) = (sign * known[k], sign * start[k]);
             if let Some(pass) = rubbing.filter(|pass| pass.calibration.is_none()) {
                 (known[k], start[k]) = (pass.used_friction.abs(), pass.used_friction.abs());
             }
         }
+        let is_rough = locals.iter().flat_map(|local| &local.passes).any(|pass| pass.used_friction != 0.0);
         let of_source = |source: &Source| {
             let own = (0..locals.len()).filter(|_| source.is_of_scan()).map(Some);
             let all = Some(None).filter(|_| !source.is_of_scan());
@@ -100,7 +104,7 @@ impl Sources {
             off.iter().sum::<f64>() / off.len() as f64
         };
         let start = DVector::from_iterator(free.len(), free.iter().map(off));
-        (Self { sigmas, known, free }, start)
+        (Self { sigmas, known, free, is_rough }, start)
     }
 
     /// The number of an error that all recordings have; none if it is known exactly.
@@ -108,9 +112,23 @@ impl Sources {
         self.free.iter().position(|error| error.source == source)
     }
 
-    /// The same, with all errors as they are known but for friction, which is none of the sensor, rod or stage.
+    /// Whether an error is always free.
+    pub fn is_always_free(&self, error: &FreeError) -> bool {
+        self.is_rough && error.source == Source::Friction
+    }
+
+    /// The same with friction of each recording, of which nothing is known.
+    pub fn and_friction(&self) -> Self {
+        let mut with = self.clone();
+        let of = |recording| FreeError { source: Source::Friction, recording: Some(recording) };
+        with.sigmas[Source::Friction as usize] = ANY;
+        with.free.extend((0..self.known.len()).map(of));
+        with
+    }
+
+    /// The same, with all errors as they are known that need not be free.
     pub fn exact(&self) -> Self {
-        let free = self.free.iter().filter(|error| error.source == Source::Friction).copied().collect();
+        let free = self.free.iter().filter(|error| self.is_always_free(error)).copied().collect();
         Self { free, ..self.clone() }
     }
 

@@ -238,7 +238,7 @@ const WELL: Effort = Effort { settled: 1e-5, steps: 60, estimates: 2 };
 /// A fit at one contour.
 pub(super) struct Solved {
     x: DVector<f64>,
-    curve: Curve,
+    pub curve: Curve,
     pub cost: f64,
     covariance: DMatrix<f64>,
     /// Standard deviations of the errors, in those of their budget.

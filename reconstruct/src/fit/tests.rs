@@ -507,13 +507,17 @@ fn shapes_of_many_seeds() {
     }
 }
 
-/// The rod is drawn past O2 and back, with friction.
+/// Drawn past O2 at q = 40 mm with friction.
+fn rubbing_states(rod: &Rod, mu: f64, step: f64) -> Vec<State> {
+    let clamp = |x| Pose { x, y: -0.04, phi: std::f64::consts::FRAC_PI_2 };
+    let path = ClampPath::new(clamp(0.08), clamp(-0.09)).unwrap();
+    Sweep::new(rod, &object(), path, step).unwrap().with_friction(mu).unwrap().run().states
+}
+
 #[test]
 fn friction_comes_out_with_the_contour() {
     let (rod, mu) = (steel(), 0.2);
-    let clamp = |x| Pose { x, y: -0.04, phi: std::f64::consts::FRAC_PI_2 };
-    let path = ClampPath::new(clamp(0.08), clamp(-0.09)).unwrap();
-    let states = Sweep::new(&rod, &object(), path, 5e-5).unwrap().with_friction(mu).unwrap().run().states;
+    let states = rubbing_states(&rod, mu, 5e-5);
     let mut samples = samples(&states);
     noisy(&mut samples, 1);
     let settings = Settings { friction: crate::Friction::Estimate, ..AS_IS };
@@ -525,4 +529,24 @@ fn friction_comes_out_with_the_contour() {
     found.adopt(&fit, &settings);
     answers_are_true(&found, &states, 0.85);
     assert!((found.passes[0].used_friction - mu).abs() < 2e-3, "{}", found.passes[0].used_friction);
+}
+
+/// Errors of the sensor and of the clamp could take the place of friction that is not asked for.
+#[test]
+fn friction_that_is_not_asked_for_is_told_from_errors() {
+    let given = [(Source::BiasF0x, 0.004), (Source::GainF0y, 0.006), (Source::ClampAngle, 0.005)];
+    let rod = steel();
+    for mu in [0.1, 0.0] {
+        let states = rubbing_states(&rod, mu, 2e-4);
+        let (rod, mut disturbed) = disturb(&rod, &samples(&states), |source| error_of(&given, source)).unwrap();
+        noisy(&mut disturbed, 0);
+        let fit = fitted(&rod, &disturbed, &Settings { budget: None, ..AS_IS }).unwrap();
+        assert!(fit.goodness.explains, "{:?}", fit.goodness);
+        let found = fit.friction_beside_errors();
+        println!("friction {mu}: {found:?}");
+        assert_eq!(found.is_some(), mu != 0.0);
+        if let Some((found, sigma)) = found {
+            assert!((found - mu).abs() < 4.0 * sigma, "{found} +- {sigma}");
+        }
+    }
 }

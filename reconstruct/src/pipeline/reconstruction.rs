@@ -39,9 +39,10 @@ pub struct Pass {
 }
 
 impl Pass {
-    /// 1 where friction draws the rod towards its tip, -1 where it holds it back, 0 without friction.
+    /// The sign of friction as it was used, or as the pass tells it; 1 where nothing does.
     pub(crate) fn drawn(&self) -> f64 {
-        if self.used_friction == 0.0 { 0.0 } else { self.used_friction.signum() }
+        let told = self.friction.map_or(1.0, |friction| friction.mu);
+        1.0_f64.copysign(if self.used_friction == 0.0 { told } else { self.used_friction })
     }
 
     /// Takes the errors of a fit for its own: those of friction have the sign of the pass.
@@ -61,7 +62,7 @@ impl Pass {
                 None => {}
             }
         }
-        if let Some((mu, sigma)) = found(Source::Friction).filter(|_| drawn != 0.0) {
+        if let Some((mu, sigma)) = found(Source::Friction).filter(|_| self.used_friction != 0.0) {
             self.used_friction = mu;
             if let Some(friction) = &mut self.friction {
                 (friction.mu, friction.sigma) = (mu, friction.sigma.max(sigma));

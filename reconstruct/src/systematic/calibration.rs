@@ -12,7 +12,7 @@ const TIED: f64 = 0.9;
 /// Part of a variance that another source is named for.
 const CONFUSED: f64 = 0.1;
 /// Standard deviations beyond which an estimate contradicts what was known.
-pub(super) const BEYOND: f64 = 3.0;
+pub(crate) const BEYOND: f64 = 3.0;
 
 /// One source of error: what was known, and what the scan says.
 #[derive(Clone, Copy, Debug, PartialEq)]
