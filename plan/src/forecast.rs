@@ -3,7 +3,7 @@
 use crate::choice::{Choice, exhaustive, greedy};
 use crate::hypothesis::Hypothesis;
 use crate::precision::{Measurement, PlaceSigma, predicted};
-use crate::scanned::{self, Computation};
+use crate::scanned::{self, Computation, Progress};
 use crate::support::along;
 use crate::{IntervalSet, PlanError, ReachGrid, Scanned, StraightScan};
 use rayon::prelude::*;
@@ -12,7 +12,6 @@ use rod_core::{PhysicalRod, Pose};
 use rod_reconstruct::{FittedObject, Knowledge};
 use std::fmt;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Distance (rod lengths) of the states of a sweep past a drawn object. The ends of what is touched do not depend on it; between two states the stress may be somewhat
 /// larger than at both. Smaller: slower.
@@ -204,6 +203,9 @@ pub fn candidates<R: PhysicalRod>(
     let length = rod.units().length;
     let scans: Vec<StraightScan> = scans.into_iter().collect();
     scans.iter().try_for_each(|scan| scan.check(length))?;
+    if scans.is_empty() {
+        return Ok(Vec::new());
+    }
     candidates_of(&hypotheses(known, length, settings, &|_| true)?, scans, length)
 }
 
@@ -244,7 +246,7 @@ pub(crate) fn candidates_of(
 }
 
 /// What each of some candidate scans is expected to add to what is `known` of an object, on all cores, without friction. `goes_on` hears how many
-/// candidates are done, and ends the work where it returns false.
+/// candidates are done, also within a scan, and ends the work where it returns false.
 ///
 /// # Errors
 /// [`PlanError::NothingKnown`] where no point is known.
@@ -257,6 +259,9 @@ pub fn plan<R: PhysicalRod + Sync>(
 ) -> Result<Plan, PlanError> {
     if candidates.is_empty() {
         return Err(PlanError::Empty { what: "candidates" });
+    }
+    if !goes_on(0) {
+        return Ok(Plan { hypotheses: Vec::new(), forecasts: Vec::new(), new: Vec::new() });
     }
     let hypotheses = hypotheses(known, rod.units().length, settings, &|_| true)?;
     plan_of(rod, known, hypotheses, candidates, (settings, None), goes_on)
@@ -272,10 +277,10 @@ pub(crate) fn plan_of<R: PhysicalRod + Sync>(
     goes_on: &(impl Fn(usize) -> bool + Sync),
 ) -> Result<Plan, PlanError> {
     let places = hypotheses.first().map_or_else(Vec::new, |one| known_places(known, one));
-    let done = AtomicUsize::new(0);
+    let progress = Progress::new(goes_on);
     let one = |candidate: &Candidate| {
-        let found = forecast(rod, &places, &hypotheses, candidate.clone(), (settings, most_stress));
-        (found, goes_on(done.fetch_add(1, Ordering::Relaxed) + 1))
+        let found = forecast(rod, &places, &hypotheses, candidate.clone(), (settings, most_stress), &progress);
+        (found, progress.count())
     };
     let found = candidates.par_iter().map(one).take_any_while(|(_, goes_on)| *goes_on).map(|(found, _)| found);
     let (forecasts, new) = found.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
@@ -288,6 +293,7 @@ fn forecast<R: PhysicalRod>(
     hypotheses: &[Hypothesis],
     candidate: Candidate,
     (settings, most_stress): (&PlanSettings, Option<f64>),
+    progress: &Progress<'_>,
 ) -> Result<(Forecast, Vec<Vec<IntervalSet>>), PlanError> {
     let path = candidate.path.clone();
     let (mut new, mut gains, mut touched) = (Vec::new(), Vec::new(), 0.0);
@@ -310,7 +316,7 @@ fn forecast<R: PhysicalRod>(
         // only of the most plausible object are the states themselves of use
         let step = if number == 0 { scanned::STEP } else { COARSE } * rod.units().length;
         let computation = Computation { step, most_steps: Some(MOST_STEPS), most_stress };
-        let (found, states) = Scanned::of(rod, objects, outlines, &path, computation)?;
+        let (found, states) = Scanned::of(rod, objects, outlines, &path, computation, progress)?;
         let all: Vec<IntervalSet> = (0..objects.len()).map(|object| found.touched.all(object)).collect();
         let fresh: Vec<IntervalSet> = all.iter().zip(before).map(|(all, before)| all.without(before)).collect();
         gains.push(fresh.iter().map(IntervalSet::length).sum::<f64>());

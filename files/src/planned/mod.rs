@@ -158,11 +158,6 @@ impl Planned {
         Ok(Self { name: name.to_owned(), known, candidates: candidates.len(), most_stress, plan, choices })
     }
 
-    /// Whether all candidates were judged.
-    pub fn is_complete(&self) -> bool {
-        self.plan.forecasts.len() == self.candidates
-    }
-
     /// The candidates, best gain first.
     pub fn ranked(&self) -> Vec<(usize, &Forecast)> {
         let mut ranked: Vec<(usize, &Forecast)> = self.plan.forecasts.iter().enumerate().collect();
