@@ -22,6 +22,11 @@ pub fn number(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "expected a whole number, at least 1".to_owned())
 }
 
+/// A number that counts from 0; whether there are so many shows later.
+pub fn index(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "expected a whole number, 0 or larger".to_owned())
+}
+
 /// The speed of a clamp that moves, m/s: a number, or one with a unit.
 pub fn speed(text: &str) -> Result<f64, String> {
     let speed = text.parse::<Speed>()?.where_it_moves().map_err(|error| error.to_string())?;
