@@ -176,7 +176,7 @@ impl Plan {
 }
 
 /// Straight scans at the distances and angles of a grid, both ways, whose lines are so far from all hypotheses about the object: those of
-/// [`plan`] with the same settings.
+/// [`plan`] with the same settings. There are fewer from where `goes_on` returns false.
 ///
 /// # Errors
 /// [`PlanError`].
@@ -185,12 +185,14 @@ pub fn straight_candidates<R: PhysicalRod>(
     known: &[FittedObject],
     grid: &ReachGrid,
     settings: &PlanSettings,
+    goes_on: &dyn Fn() -> bool,
 ) -> Result<Vec<Candidate>, PlanError> {
     grid.check(rod)?;
-    candidates(rod, known, grid.scans(), settings)
+    candidates(rod, known, grid.scans(), settings, goes_on)
 }
 
-/// These scans, whose lines are so far from all hypotheses about the object: those of [`plan`] with the same settings.
+/// These scans, whose lines are so far from all hypotheses about the object: those of [`plan`] with the same settings. There are fewer from where
+/// `goes_on` returns false.
 ///
 /// # Errors
 /// [`PlanError`].
@@ -199,6 +201,7 @@ pub fn candidates<R: PhysicalRod>(
     known: &[FittedObject],
     scans: impl IntoIterator<Item = StraightScan>,
     settings: &PlanSettings,
+    goes_on: &dyn Fn() -> bool,
 ) -> Result<Vec<Candidate>, PlanError> {
     let length = rod.units().length;
     let scans: Vec<StraightScan> = scans.into_iter().collect();
@@ -206,7 +209,7 @@ pub fn candidates<R: PhysicalRod>(
     if scans.is_empty() {
         return Ok(Vec::new());
     }
-    candidates_of(&hypotheses(known, length, settings, &|_| true)?, scans, length)
+    candidates_of(&hypotheses(known, length, settings, &|_| true)?, scans, length, goes_on)
 }
 
 /// Objects that agree with what is known, and whose contours beyond what is known stay where they `may_be`.
@@ -220,11 +223,12 @@ pub(crate) fn hypotheses(
     if all.is_empty() { Err(PlanError::NothingKnown) } else { Ok(all) }
 }
 
-/// Scans past these objects; `length` is that of the rod, m.
+/// Scans past these objects; `length` is that of the rod, m. Many scans take seconds, so `goes_on` is asked before each.
 pub(crate) fn candidates_of(
     hypotheses: &[Hypothesis],
     scans: impl IntoIterator<Item = StraightScan>,
     length: f64,
+    goes_on: &dyn Fn() -> bool,
 ) -> Result<Vec<Candidate>, PlanError> {
     let candidate = |scan: StraightScan| {
         let frames = || {
@@ -242,7 +246,7 @@ pub(crate) fn candidates_of(
             within.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| (ends.0.min(place), ends.1.max(place)));
         Ok(Candidate { scan: Some(scan), path: Arc::new(scan.path(nearest, across, length)?) })
     };
-    scans.into_iter().map(candidate).collect()
+    scans.into_iter().take_while(|_| goes_on()).map(candidate).collect()
 }
 
 /// What each of some candidate scans is expected to add to what is `known` of an object, on all cores, without friction. `goes_on` hears how many
@@ -257,11 +261,11 @@ pub fn plan<R: PhysicalRod + Sync>(
     settings: &PlanSettings,
     goes_on: &(impl Fn(usize) -> bool + Sync),
 ) -> Result<Plan, PlanError> {
-    if candidates.is_empty() {
-        return Err(PlanError::Empty { what: "candidates" });
-    }
     if !goes_on(0) {
         return Ok(Plan { hypotheses: Vec::new(), forecasts: Vec::new(), new: Vec::new() });
+    }
+    if candidates.is_empty() {
+        return Err(PlanError::Empty { what: "candidates" });
     }
     let hypotheses = hypotheses(known, rod.units().length, settings, &|_| true)?;
     plan_of(rod, known, hypotheses, candidates, (settings, None), goes_on)

@@ -166,7 +166,7 @@ def test_simulated_and_reconstructed_as_by_the_command(
     if fit:
         fitted = list(csv.DictReader((out / "fitted.csv").open()))
         assert found.is_explained and [float(row["y"]) for row in fitted] == found.fitted["y"].tolist()
-        assert [int(row["object"]) - 1 for row in fitted] == found.fitted["object"].tolist()
+        assert [int(row["object"]) for row in fitted] == found.fitted["object"].tolist()
     contour = list(csv.DictReader((out / "contour.csv").open()))
     assert [float(row["sigma"]) for row in contour] == found.contour["sigma"].tolist()
     report = json.loads((out / "report.json").read_text())
