@@ -5,8 +5,8 @@ use crate::guide;
 use crate::recording_arguments::{Moved, Written};
 use crate::values::Values;
 use crate::values::{
-    degrees, directory, friction, largest_stress, no_quiet, not_negative, number, positive, rectangle, seed, speed,
-    values,
+    degrees, directory, friction, index, largest_stress, no_quiet, not_negative, number, positive, rectangle, seed,
+    speed, values,
 };
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -155,8 +155,8 @@ pub enum Command {
         /// Largest distance of a chord between two points from the contour, m [default: 1e-6 of the rod's length]
         #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
         tolerance: Option<f64>,
-        /// Only this object, from 1
-        #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+        /// Only this object, from 0
+        #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = index)]
         object: Option<usize>,
     },
     /// List the shapes that objects are made of, with fields and units

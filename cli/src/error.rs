@@ -2,7 +2,7 @@
 
 use rod_files::{
     FilmError, LiveError, OutputError, PlanFileError, ProfileError, ReconstructionError, RecordingError, SceneError,
-    SimulationError, StudyError, TruthError, quoted,
+    SimulationArgument, SimulationError, StudyError, TruthError, quoted,
 };
 use vibrissa::contact::ContactError;
 use vibrissa::hw::recording::{TableError, TableProblem};
@@ -31,6 +31,11 @@ pub enum Error {
     Contour(#[from] ProfileError),
     #[error(transparent)]
     Simulate(#[from] SimulationError),
+    #[error(transparent)]
+    SimulationArgument(#[from] SimulationArgument),
+    /// An argument with the name of its option.
+    #[error("{0}")]
+    Named(String),
     #[error(transparent)]
     FakeSensor(#[from] FakeError),
     #[error(transparent)]
@@ -120,19 +125,34 @@ impl Error {
             )
             | Self::Option(_)
             | Self::Film(FilmError::NoSensor { .. }) => true,
-            Self::Simulate(error)
-            | Self::FakeSensor(FakeError::Simulation(error))
-            | Self::Budget(BudgetError::Simulation(error))
-                if error.is_of_options() =>
-            {
-                true
-            }
             Self::Study(StudyError::NoScene { .. })
             | Self::FakeSensor(FakeError::Pace { .. } | FakeError::NoPty { .. }) => true,
-            _ => matches!(
-                self.of_output(),
-                Some(OutputError::Name { .. } | OutputError::NoFile { .. } | OutputError::IsDirectory { .. })
-            ),
+            _ => {
+                self.argument().is_some()
+                    || matches!(
+                        self.of_output(),
+                        Some(OutputError::Name { .. } | OutputError::NoFile { .. } | OutputError::IsDirectory { .. })
+                    )
+            }
+        }
+    }
+
+    /// The argument of a simulation that is not possible, of whichever command.
+    fn argument(&self) -> Option<&SimulationArgument> {
+        match self {
+            Self::Simulate(SimulationError::Argument(argument))
+            | Self::FakeSensor(FakeError::Simulation(SimulationError::Argument(argument)))
+            | Self::Budget(BudgetError::Simulation(SimulationError::Argument(argument)))
+            | Self::SimulationArgument(argument) => Some(argument),
+            _ => None,
+        }
+    }
+
+    /// The same, with the names of options.
+    pub fn named(self) -> Self {
+        match self.argument() {
+            Some(argument) => Self::Named(argument.message(|name| format!("--{name}"))),
+            None => self,
         }
     }
 }

@@ -47,7 +47,7 @@ Next: open elastica.svg of the results in a browser; docs/elastica.md has loads 
 pub const CONTOUR: &str = "\
 Examples:
   vibrissa contour scene.toml
-  vibrissa contour scene.toml --object 1 --file - > object.csv
+  vibrissa contour scene.toml --object 0 --file - > object.csv
 
 Next: open contour.svg, see whether the outline is what you mean, then `vibrissa sweep` the scene.";
 

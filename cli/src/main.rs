@@ -403,6 +403,7 @@ fn interrupted(name: &str, at: &Interrupted, marked: Option<&str>, caught: &sign
 
 /// Shows an error: with the place in the scene for people, on one line for everything else.
 fn complain(error: Error) {
+    let error = error.named();
     let hint = error.unread_table().map(|file| format!("`vibrissa inspect {file}` shows what the file holds."));
     if io::stderr().is_terminal() {
         warn(&format!("{:?}\n", miette::Report::new(error)));

@@ -3,9 +3,10 @@
 use crate::arguments::{PlanArguments, ReachArguments};
 use crate::error::Error;
 use crate::progress::Progress;
-use crate::{read_scene, say, signals, warn};
+use crate::{read_scene, say, signals};
 use rod_files::{
-    Approaches, PlanRequest, Planned, Staged, read_calibrated_rod, read_known_contours, read_noise, read_scans,
+    Approaches, Interrupt, PlanRequest, Planned, Staged, read_calibrated_rod, read_known_contours, read_noise,
+    read_scans,
 };
 use std::path::Path;
 use std::process::ExitCode;
@@ -18,19 +19,16 @@ const FRICTION: &str = "take it away: `reach` computes contacts without friction
 pub fn reach(arguments: ReachArguments) -> Result<ExitCode, Error> {
     let ReachArguments { scene, distances, angles, out, jobs } = arguments;
     run_on(jobs);
+    signals::end();
     let scene = read_scene(&scene)?;
     scene.check_no_friction(FRICTION)?;
     let out = out.unwrap_or_else(|| Path::new("out").join(&scene.name));
-    let caught = signals::ask();
+    let interrupt = Interrupt::default();
     let staged = Staged::new(&out)?.keeping(scene.files.clone());
-    let progress = Progress::of(&caught.interrupt);
+    let progress = Progress::of(&interrupt);
     let angles = angles.map(|angles| angles.0.into_iter().map(f64::to_radians).collect());
-    let found = scene.reach(distances.map(|distances| distances.0), angles, &caught.interrupt)?;
+    let found = scene.reach(distances.map(|distances| distances.0), angles, &interrupt)?;
     drop(progress);
-    if !found.is_complete() {
-        warn(&format!("warning: {}: interrupted; nothing is written\n", scene.name));
-        return Ok(caught.status());
-    }
     write_reach(&found, &staged)?;
     published(staged, &found.report(), &out)
 }
@@ -62,6 +60,7 @@ pub fn plan(arguments: PlanArguments) -> Result<ExitCode, Error> {
         jobs,
     } = arguments;
     run_on(jobs);
+    signals::end();
     let calibrated = read_calibrated_rod(&rod)?;
     let angles = angles.map(|angles| angles.0.into_iter().map(f64::to_radians).collect());
     let largest_stress = stress.unwrap_or_default();
@@ -89,16 +88,12 @@ pub fn plan(arguments: PlanArguments) -> Result<ExitCode, Error> {
         hypotheses,
         seed,
     };
-    let caught = signals::ask();
+    let interrupt = Interrupt::default();
     let staged = Staged::new(&out)?.keeping(inputs);
-    let progress = Progress::of(&caught.interrupt);
+    let progress = Progress::of(&interrupt);
     let name = result.file_name().unwrap_or(result.as_os_str()).to_string_lossy().into_owned();
-    let found = Planned::new(&name, &calibrated.rod, known, &request, &caught.interrupt)?;
+    let found = Planned::new(&name, &calibrated.rod, known, &request, &interrupt)?;
     drop(progress);
-    if !found.is_complete() {
-        warn(&format!("warning: {name}: interrupted; nothing is written\n"));
-        return Ok(caught.status());
-    }
     write_plan(&found, &staged)?;
     published(staged, &found.report(), &out)
 }

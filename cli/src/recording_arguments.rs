@@ -1,6 +1,6 @@
 //! Options of all commands that read a recording: how the clamp moves, and how the file is written.
 
-use crate::values::{Meaning, STAGE, meaning, number, pair};
+use crate::values::{Meaning, Place, STAGE, meaning, number, pair};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use rod_files::{ReadOptions, StageDelay, StageSpec};
@@ -38,7 +38,8 @@ pub struct Written {
     /// The unit of a column; with a minus before it, as `f0x=-N`, the sign of the column is reversed. For the table of a stage: stage:COLUMN=UNIT
     #[arg(long, value_name = "COLUMN=UNIT", value_parser = pair)]
     unit: Vec<(String, String)>,
-    /// Which column is x0, y0, phi0, f0x, f0y, m0z, t, ... For the table of a stage: stage:MEANING=COLUMN
+    /// Which column is x0, y0, phi0, f0x, f0y, m0z, t, ... For the table of a stage: stage:MEANING=COLUMN. A number with a unit is the value of
+    /// an x0, y0 or phi0 that stays the same and has no column, as `phi0=90deg`
     #[arg(long, value_name = "MEANING=COLUMN", value_parser = meaning)]
     column: Vec<Meaning>,
     /// Which of the segments of an LVM file, from 1
@@ -63,17 +64,26 @@ impl From<Written> for ReadOptions {
         let (stage_columns, columns): (Vec<Meaning>, Vec<Meaning>) =
             written.column.into_iter().partition(|meaning| meaning.of_stage);
         let map = |columns: Vec<Meaning>| {
-            columns.into_iter().fold(ColumnMap::new(), |map, meaning| map.with(meaning.role, meaning.column))
+            let (mut map, mut constants) = (ColumnMap::new(), Vec::new());
+            for Meaning { role, place, .. } in columns {
+                match place {
+                    Place::Column(column) => map = map.with(role, column),
+                    Place::Constant(constant) => constants.push(constant),
+                }
+            }
+            (map, constants)
         };
-        let options =
-            TableOptions { delimiter, decimal, header, units, segment: written.segment, ..TableOptions::default() };
         let is_apart = !stage_units.is_empty() || !stage_columns.is_empty();
         let stage = is_apart.then(|| {
             // its layout is detected: it may be written in another way
-            let options = TableOptions { units: stage_units, ..TableOptions::default() };
-            Box::new(Self { options, columns: map(stage_columns), stage: None })
+            let (columns, constants) = map(stage_columns);
+            let options = TableOptions { units: stage_units, constants, ..TableOptions::default() };
+            Box::new(Self { options, columns, stage: None })
         });
-        Self { options, columns: map(columns), stage }
+        let (columns, constants) = map(columns);
+        let segment = written.segment;
+        let options = TableOptions { delimiter, decimal, header, units, constants, segment, ..TableOptions::default() };
+        Self { options, columns, stage }
     }
 }
 

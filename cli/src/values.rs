@@ -3,7 +3,7 @@
 use clap::{Arg, ArgAction};
 use rod_files::{LargestStress, Speed};
 use std::path::PathBuf;
-use vibrissa::hw::recording::Role;
+use vibrissa::hw::recording::{Constant, Role};
 use vibrissa::plan::Rectangle;
 use vibrissa::reconstruct::Friction;
 
@@ -20,6 +20,11 @@ pub fn seed(text: &str) -> Result<u64, String> {
 /// A number that counts from 1; whether there are so many shows later.
 pub fn number(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "expected a whole number, at least 1".to_owned())
+}
+
+/// A number that counts from 0; whether there are so many shows later.
+pub fn index(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "expected a whole number, 0 or larger".to_owned())
 }
 
 /// The speed of a clamp that moves, m/s: a number, or one with a unit.
@@ -126,23 +131,35 @@ pub fn pair(text: &str) -> Result<(String, String), String> {
 /// Before what concerns the table of a stage alone.
 pub const STAGE: &str = "stage:";
 
-/// A meaning and its column.
+/// A meaning and its column, or its value.
 #[derive(Clone, Debug)]
 pub struct Meaning {
     pub role: Role,
-    pub column: String,
+    pub place: Place,
     /// Whether the table of the stage is meant.
     pub of_stage: bool,
 }
 
-/// A meaning and its column.
+/// Where the value of a meaning is.
+#[derive(Clone, Debug)]
+pub enum Place {
+    /// In a column of this name.
+    Column(String),
+    /// In none, because it stays the same.
+    Constant(Constant),
+}
+
+/// A meaning and its column, or the value of a coordinate or the angle of the clamp.
 pub fn meaning(text: &str) -> Result<Meaning, String> {
     let (name, column) = text.split_once('=').ok_or("expected two names with = between them")?;
     let (of_stage, name) = name.strip_prefix(STAGE).map_or((false, name), |name| (true, name));
     let role = Role::of_name(name).ok_or_else(|| {
         format!("`{name}` means nothing, expected x0, y0, phi0, f0x, f0y, m0z, t or another name of docs/recordings.md")
     })?;
-    Ok(Meaning { role, column: column.to_owned(), of_stage })
+    let is_pose = matches!(role, Role::X0 | Role::Y0 | Role::Phi0);
+    let constant = Constant::parse(role, column).filter(|_| is_pose);
+    let place = constant.map_or_else(|| Place::Column(column.to_owned()), Place::Constant);
+    Ok(Meaning { role, place, of_stage })
 }
 
 #[cfg(test)]

@@ -157,9 +157,9 @@ fn objects_are_told_apart_and_may_be_asked_for() {
     };
     let scene = with_objects(&(line(0.0) + &line(0.5)));
     let rows = contour(&scene, &[]);
-    assert_eq!(rows.iter().map(|row| row.object).collect::<Vec<_>>(), [1, 1, 2, 2]);
+    assert_eq!(rows.iter().map(|row| row.object).collect::<Vec<_>>(), [0, 0, 1, 1]);
     assert_eq!((rows[2].x, rows[2].arc_length), (0.5, 0.0));
-    assert_eq!(contour(&scene, &["--object", "2"]), rows[2..]);
+    assert_eq!(contour(&scene, &["--object", "1"]), rows[2..]);
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn by_default_it_goes_to_the_directory_of_the_scene() {
     let output = vibrissa(directory.path(), &["contour", "scene.toml"]);
     assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(said.contains("scene: object 1: ") && said.contains("out/scene/contour.svg"), "{said}");
+    assert!(said.contains("scene: object 0: ") && said.contains("out/scene/contour.svg"), "{said}");
     assert!(!rows(&directory.path().join("out/scene/contour.csv")).is_empty());
 }
 
@@ -199,9 +199,9 @@ fn requests_that_cannot_be_met() {
     let message = refused(&["--tolerance", "0"]);
     assert!(message.contains("--tolerance is 0 m, expected at least 1e-13 m"), "{message}");
     assert!(refused(&["--tolerance=-1"]).contains("--tolerance is -1 m, expected"));
-    let message = refused(&["--object", "2"]);
-    assert!(message.contains("--object is 2, expected a number from 1 to 1"), "{message}");
-    assert!(refused(&["--object", "0"]).contains("--object is 0, expected"));
+    let message = refused(&["--object", "1"]);
+    assert!(message.contains("--object is 1, expected a number from 0 to 0: the scene has 1"), "{message}");
+    assert!(refused(&["--object", "-1"]).contains("expected a whole number, 0 or larger"));
     let message = refused(&["--tolerance", "1.1e-13"]);
     assert!(message.contains("more than 1000000 points") && message.contains("larger --tolerance"), "{message}");
     let message = refused(&["--out", "drawing.svg"]);

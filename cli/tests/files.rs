@@ -63,7 +63,7 @@ fn a_sweep_writes_states_events_and_a_figure() {
     assert!(state["max_stress"].as_f64().unwrap() > 1e6);
     let contact = &state["contacts"][0];
     assert_eq!(keys(contact), ["alpha", "force", "kind", "object", "piece", "s", "x", "y"]);
-    assert_eq!((&contact["kind"], &contact["piece"]), (&"tangent".into(), &2.into()));
+    assert_eq!((&contact["kind"], &contact["piece"]), (&"tangent".into(), &1.into()));
 
     let events = lines(&out.join("events.jsonl"));
     let mut expected =
@@ -123,7 +123,7 @@ fn the_table_holds_the_same_numbers_to_the_last_bit() {
     let states = lines(&out.join("states.jsonl"));
     assert_eq!(rows.len(), states.len());
     for (index, (row, state)) in rows.iter().zip(&states).enumerate() {
-        assert_eq!(row[0].parse::<usize>().unwrap(), index + 1, "the number of the line in states.jsonl");
+        assert_eq!(row[0].parse::<usize>().unwrap(), index, "the number of the line in states.jsonl");
         for (cell, column) in row.iter().zip(header.split(',')).skip(1) {
             match &state[column] {
                 Value::Number(number) => assert_eq!(cell.parse::<f64>().unwrap(), number.as_f64().unwrap(), "{column}"),
@@ -146,17 +146,19 @@ fn the_table_of_contacts_has_a_row_for_each() {
     let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
     let states = lines(&out.join("states.jsonl"));
     let contacts = |state: &Value| state["contacts"].as_array().unwrap().clone();
-    let all: Vec<(usize, usize, Value)> = (1..)
+    let all: Vec<(usize, usize, Value)> = (0_usize..)
         .zip(&states)
-        .flat_map(|(state, record)| (1..).zip(contacts(record)).map(move |(contact, record)| (state, contact, record)))
+        .flat_map(|(state, record)| {
+            (0_usize..).zip(contacts(record)).map(move |(contact, record)| (state, contact, record))
+        })
         .collect();
-    assert!(rows.len() == all.len() && all.iter().any(|(_, contact, _)| *contact == 2), "{}", rows.len());
+    assert!(rows.len() == all.len() && all.iter().any(|(_, contact, _)| *contact == 1), "{}", rows.len());
     for (row, (state, contact, record)) in rows.iter().zip(&all) {
         assert_eq!((row[0].parse::<usize>().unwrap(), row[5].parse::<usize>().unwrap()), (*state, *contact));
         for (cell, column) in
             row.iter().zip(header.split(',')).filter(|(_, column)| !["state", "contact"].contains(column))
         {
-            match record.get(column).unwrap_or(&states[state - 1][column]) {
+            match record.get(column).unwrap_or(&states[*state][column]) {
                 Value::String(text) => assert_eq!(cell, text),
                 // a scene without friction
                 Value::Null => assert_eq!(cell, "", "{column}"),

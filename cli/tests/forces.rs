@@ -208,6 +208,15 @@ fn a_part_of_the_base_signal_tells_what_it_tells() {
         let output = vibrissa(path, &["forces", "part.csv", "--rod", "rod.toml"]);
         let judged = lines(&path.join("out/part/forces.jsonl")).remove(0);
         assert_eq!(judged["verdict"], verdict, "{columns}: {judged} {}", complaint(&output));
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        let figure = fs::read_to_string(path.join("out/part/frames.svg")).unwrap();
+        assert_eq!(
+            said.contains("1 frame of verdict family without a force of their own"),
+            verdict == "family",
+            "{said}"
+        );
+        assert_eq!(said.contains("--pole finds it"), verdict == "family", "{said}");
+        assert_eq!(figure.contains("1 of them family: --pole may determine them"), verdict == "family", "{columns}");
         if verdict == "family" {
             // the true contact is a member: the force at 0.6 L is 4 E I / L^2
             let members = judged["family"].as_array().unwrap();

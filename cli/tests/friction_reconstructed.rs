@@ -163,7 +163,7 @@ fn a_contact_that_rolls_where_the_clamp_turns_has_no_point_that_is_off() {
             lines("out/points.jsonl").lines().map(|line| serde_json::from_str(line).unwrap()).collect();
         let (mut slid, mut off) = (0, 0.0_f64);
         for (state, x, y, rolls) in &rows {
-            let point = &points[state - 1];
+            let point = &points[*state];
             let (Some(px), Some(py)) = (point["x"].as_f64(), point["y"].as_f64()) else { continue };
             slid += usize::from(!rolls);
             off = off.max((px - x).hypot(py - y));

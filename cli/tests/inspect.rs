@@ -437,6 +437,81 @@ fn tracked_points() {
     assert_eq!(words(&found), "vibrissa forces points.csv --rod rod.toml --scale 1e-3");
 }
 
+/// The length of a frame along the rod, in pixels, gives a scale if it shows the whole rod.
+#[test]
+fn points_in_pixels_need_a_scale() {
+    let mut text = "frame,x,y\n".to_owned();
+    for frame in 0..3 {
+        for point in 0..=20 {
+            let _ = writeln!(text, "{frame},{},{}", 100 + 100 * point, 500 + frame);
+        }
+    }
+    for (rod, expected) in
+        [(ROD, "METRES is 5.00e-5 if the longest frame shows the whole rod"), (&[], "--rod FILE compares it")]
+    {
+        let (found, status) = looked(&text, rod);
+        let asked = questions(&found);
+        assert_eq!(status, 2);
+        for part in [
+            "these may be pixels",
+            "--scale METRES",
+            "--image if y counts down",
+            "divided by the same distance in pixels",
+            expected,
+        ] {
+            assert!(asked.contains(part), "{part}: {asked}");
+        }
+        assert!(words(&found).ends_with("--scale METRES"), "{found:#}");
+    }
+}
+
+/// A clamp that only moves has an angle, and many stages do not log it.
+#[test]
+fn an_angle_that_stays_the_same_is_an_option() {
+    let text = table("t,x0,y0,f0x,f0y,m0z\n", ",", |[t, x, y, _, fx, fy, m]| [*t, *x, *y, *fx, *fy, *m]);
+    let (found, status) = looked(&text, ROD);
+    assert!(status == 2 && found.to_string().contains("needs no column: --column phi0=90deg"), "{found:#}");
+    let (found, status) = looked(&text, &[ROD, &["--column", "phi0=90 deg"]].concat());
+    assert_eq!((status, words(&found).ends_with("--column phi0=90deg")), (0, true), "{found:#}");
+    assert!(fact(&found, "motion of the clamp").ends_with("the angle stays 90.000 degrees"), "{found:#}");
+    let directory = tempfile::tempdir().unwrap();
+    fs::write(directory.path().join("rod.toml"), SCENE).unwrap();
+    fs::write(directory.path().join("whole.csv"), own()).unwrap();
+    fs::write(directory.path().join("part.csv"), text).unwrap();
+    let points = |arguments: &[&str]| {
+        let output =
+            vibrissa(directory.path(), &[&["reconstruct", "--rod", "rod.toml", "--out", "out"], arguments].concat());
+        (fs::read_to_string(directory.path().join("out/contour.csv")).unwrap_or_default(), complaint(&output))
+    };
+    let whole = points(&["whole.csv"]);
+    assert!(whole.0.lines().count() > 10, "{}", whole.1);
+    // the angle of the file has ten digits
+    assert_eq!(points(&["part.csv", "--column", "phi0=1.570796327rad"]).0, whole.0);
+    let (_, message) = points(&["part.csv", "--column", "phi0=90"]);
+    assert!(message.contains("no column `90`"), "{message}");
+    let (_, message) = points(&["part.csv"]);
+    assert!(message.contains("the option --column phi0=90deg gives its value"), "{message}");
+}
+
+/// The table of a stage may lack the angle, too.
+#[test]
+fn the_angle_of_a_stage_is_an_option() {
+    let directory = tempfile::tempdir().unwrap();
+    let stage = table("t,x0,y0\n", ",", |[t, x, y, ..]| [*t, *x, *y]);
+    fs::write(directory.path().join("stage.csv"), stage).unwrap();
+    let sensor = table("t,Fx [N],Fy [N],Fz [N],Tx [N m],Ty [N m],Tz [N m]\n", ",", |[t, _, _, _, fx, fy, m]| {
+        [*t, -fx, -fy, 0.0, 0.0, 0.0, -m]
+    });
+    fs::write(directory.path().join("sensor.csv"), sensor).unwrap();
+    let files = ["sensor.csv", "stage.csv", "--rod", "rod.toml", "--stage-delay", "0"];
+    let (found, status) = inspected(directory.path(), &files);
+    assert!(status == 2 && found.to_string().contains("--column phi0=90deg"), "{found:#}");
+    let (found, status) = inspected(directory.path(), &[&files[..], &["--column", "stage:phi0=90deg"]].concat());
+    assert_eq!(status, 0, "{found:#}");
+    assert!(words(&found).contains("--column stage:phi0=90deg"), "{found:#}");
+    runs(directory.path(), &found);
+}
+
 /// The files of a tracker state neither the rod nor the size of a pixel.
 #[test]
 fn points_of_deeplabcut_are_no_forces() {

@@ -141,6 +141,34 @@ fn a_second_signal_leaves_no_stage_either() {
     assert!(left.is_empty() || left.len() == 6 && stage(&out).is_none(), "{left:?}");
 }
 
+/// Of a search for scans nothing is written when it is interrupted, so it ends at once: a minute's work within a second.
+#[test]
+fn a_search_for_scans_ends_at_once() {
+    for (command, first) in [(["reach", "scene.toml"], "scene"), (["plan", "found"], "plan")] {
+        let directory = tempfile::tempdir().unwrap();
+        fs::write(directory.path().join("scene.toml"), SCENE).unwrap();
+        let points: String = (0..40)
+            .map(|k| format!("1,{},{},touched,1e-5,,false\n", 1e-3 * f64::from(k), 1e-4 * f64::from(k)))
+            .collect();
+        fs::create_dir(directory.path().join("found")).unwrap();
+        let text = format!("object,x,y,known,sigma,room,vertex\n{points}");
+        fs::write(directory.path().join("found/fitted.csv"), text).unwrap();
+        let distances = ["--distances", "0.02:0.09:20000"];
+        let rod: &[&str] = if first == "plan" { &["--rod", "scene.toml", "--stress", "any"] } else { &[] };
+        let mut child = start(directory.path(), &[&command, &distances[..], rod].concat());
+        sleep(10 * FIRST_WAIT);
+        assert!(child.try_wait().unwrap().is_none(), "the command ended too early");
+        signal(&child, "-TERM");
+        let sent = Instant::now();
+        let output = child.wait_with_output().unwrap();
+        assert!(sent.elapsed() < Duration::from_secs(1), "{command:?}: {:?}", sent.elapsed());
+        assert_eq!(output.status.code(), Some(143), "{output:?}");
+        assert!(stderr(&output).contains("interrupted; nothing is written"), "{output:?}");
+        let out = directory.path().join("out").join(first);
+        assert!(!out.exists() || names(&out).is_empty(), "{command:?}");
+    }
+}
+
 #[test]
 fn a_sweep_interrupted_at_once_has_no_states() {
     let interrupt = Interrupt::default();

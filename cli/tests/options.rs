@@ -21,8 +21,8 @@ fn wrong_values_have_the_status_of_wrong_options() {
     refuses("simulate", &["--seed", "-1"], "invalid value '-1' for '--seed <N>': expected a whole number from 0 to");
     refuses("simulate", &["--sigmas"], "--sigmas: ");
     refuses("contour", &["--tolerance", "0"], "--tolerance is 0 m, expected at least");
-    refuses("contour", &["--object", "3"], "--object is 3, expected a number from 1 to 1");
-    refuses("contour", &["--object", "-1"], "'--object <N>': expected a whole number, at least 1");
+    refuses("contour", &["--object", "3"], "--object is 3, expected a number from 0 to 0");
+    refuses("contour", &["--object", "-1"], "'--object <N>': expected a whole number, 0 or larger");
     refuses("fake-sensor", &["--protocol", "rdt", "--faster", "0"], "--faster is 0, expected a positive");
 }
 

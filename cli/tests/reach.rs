@@ -46,7 +46,7 @@ fn wrong_scans_are_named() {
     for (option, value, expected) in [
         ("--distances", "0.05,0.2", "distances has 0.2 m, expected more than 0 and less than the rod's length, 0.1 m"),
         ("--distances", "1:2", "expected from:to:count"),
-        ("--angles", "-90", "from where object 1 has no nearest place"),
+        ("--angles", "-90", "from where object 0 has no nearest place"),
     ] {
         let output = vibrissa(directory.path(), &["reach", "O1_q40.toml", option, value]);
         let message = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -130,6 +130,35 @@ test('keys move the clamp and reach all buttons', { skip, timeout: 60e3 }, async
     assert.deepEqual(page.errors, []);
 });
 
+test('keys move the handles of the object', { skip, timeout: 60e3 }, async t => {
+    const page = await started(t, { width: 1000, height: 800 });
+    const tap = async (key, modifiers = 0) => {
+        for (const type of ['keyDown', 'keyUp']) await page.send('Input.dispatchKeyEvent', { type, key, code: key, modifiers });
+    };
+    await page.evaluate(`(chooser => { chooser.value = 'disc'; chooser.dispatchEvent(new Event('change')); })(document.getElementById('object'))`);
+    await page.evaluate(`document.getElementById('view').focus()`);
+    const shape = () => page.evaluate(`JSON.parse(playground.fromHash(location.hash.slice(1) || btoa('{"shapes":[{}]}'))).shapes[0]`);
+    await until('the address has the disc', async () => (await shape()).radius === 0.025);
+    const clamp = await text(page, 'xy');
+    // the centre, then the radius, then the clamp again
+    await tap('h');
+    assert.match(await text(page, 'message'), /move handle 1 of 2 /);
+    for (let count = 0; count < 5; count++) await tap('ArrowUp');
+    await until('the centre moves', async () => (await shape()).center[1] >= 0.0219999);
+    await picture(page, 'handle');
+    await tap('h');
+    assert.match(await text(page, 'message'), /move handle 2 of 2 /);
+    const [before] = [(await shape()).radius];
+    for (let count = 0; count < 5; count++) await tap('ArrowRight');
+    await until('the radius grows', async () => (await shape()).radius >= before + 0.0019);
+    assert.equal(await text(page, 'xy'), clamp);
+    await tap('Escape');
+    assert.equal(await text(page, 'message'), 'Arrow keys move the clamp.');
+    await tap('ArrowLeft');
+    await until('the clamp moves', async () => await text(page, 'xy') !== clamp);
+    assert.deepEqual(page.errors, []);
+});
+
 test('mouse, sliders and objects', { skip, timeout: 120e3 }, async t => {
     const page = await started(t, { width: 1000, height: 800 });
     const place = async () => (await text(page, 'xy')).split(',').map(Number);

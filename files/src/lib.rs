@@ -61,7 +61,7 @@ pub use scene::{
     read_calibrated_rod, read_filmed_rod, read_scans, read_uniform_rod, unit_of,
 };
 pub use setup::{Gauges, RecordingSetup, RecordingTime, SensorCalibration, Setup, TareSetup};
-pub use simulation::{Simulated, Simulation, SimulationError, Speed, Tick, Ticks};
+pub use simulation::{Simulated, Simulation, SimulationArgument, SimulationError, Speed, Tick, Ticks};
 pub use study::{Measured, Study, StudyError, StudyRow, StudyRun};
 pub use toml_file::{Invalid, SceneError};
 pub use whisker::{Animal, Whisker, WhiskerError, WhiskerSources, mean_curvature};

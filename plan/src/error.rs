@@ -32,7 +32,7 @@ pub enum PlanError {
          has one, or an object that ends"
     )]
     NoNearest {
-        /// The object, from 1.
+        /// The object, from 0.
         object: usize,
         /// Direction of the rod, rad.
         angle: f64,
@@ -42,7 +42,7 @@ pub enum PlanError {
         "object {object} goes on for ever within reach of the scans, expected one that ends, or bends away from the clamp"
     )]
     Endless {
-        /// The object, from 1.
+        /// The object, from 0.
         object: usize,
     },
     /// No point of the contour is known from which a hypothesis could go on.

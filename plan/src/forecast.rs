@@ -3,7 +3,7 @@
 use crate::choice::{Choice, exhaustive, greedy};
 use crate::hypothesis::Hypothesis;
 use crate::precision::{Measurement, PlaceSigma, predicted};
-use crate::scanned::{self, Computation};
+use crate::scanned::{self, Computation, Progress};
 use crate::support::along;
 use crate::{IntervalSet, PlanError, ReachGrid, Scanned, StraightScan};
 use rayon::prelude::*;
@@ -12,7 +12,6 @@ use rod_core::{PhysicalRod, Pose};
 use rod_reconstruct::{FittedObject, Knowledge};
 use std::fmt;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Distance (rod lengths) of the states of a sweep past a drawn object. The ends of what is touched do not depend on it; between two states the stress may be somewhat
 /// larger than at both. Smaller: slower.
@@ -177,7 +176,7 @@ impl Plan {
 }
 
 /// Straight scans at the distances and angles of a grid, both ways, whose lines are so far from all hypotheses about the object: those of
-/// [`plan`] with the same settings.
+/// [`plan`] with the same settings. There are fewer from where `goes_on` returns false.
 ///
 /// # Errors
 /// [`PlanError`].
@@ -186,12 +185,14 @@ pub fn straight_candidates<R: PhysicalRod>(
     known: &[FittedObject],
     grid: &ReachGrid,
     settings: &PlanSettings,
+    goes_on: &dyn Fn() -> bool,
 ) -> Result<Vec<Candidate>, PlanError> {
     grid.check(rod)?;
-    candidates(rod, known, grid.scans(), settings)
+    candidates(rod, known, grid.scans(), settings, goes_on)
 }
 
-/// These scans, whose lines are so far from all hypotheses about the object: those of [`plan`] with the same settings.
+/// These scans, whose lines are so far from all hypotheses about the object: those of [`plan`] with the same settings. There are fewer from where
+/// `goes_on` returns false.
 ///
 /// # Errors
 /// [`PlanError`].
@@ -200,11 +201,15 @@ pub fn candidates<R: PhysicalRod>(
     known: &[FittedObject],
     scans: impl IntoIterator<Item = StraightScan>,
     settings: &PlanSettings,
+    goes_on: &dyn Fn() -> bool,
 ) -> Result<Vec<Candidate>, PlanError> {
     let length = rod.units().length;
     let scans: Vec<StraightScan> = scans.into_iter().collect();
     scans.iter().try_for_each(|scan| scan.check(length))?;
-    candidates_of(&hypotheses(known, length, settings, &|_| true)?, scans, length)
+    if scans.is_empty() {
+        return Ok(Vec::new());
+    }
+    candidates_of(&hypotheses(known, length, settings, &|_| true)?, scans, length, goes_on)
 }
 
 /// Objects that agree with what is known, and whose contours beyond what is known stay where they `may_be`.
@@ -218,11 +223,12 @@ pub(crate) fn hypotheses(
     if all.is_empty() { Err(PlanError::NothingKnown) } else { Ok(all) }
 }
 
-/// Scans past these objects; `length` is that of the rod, m.
+/// Scans past these objects; `length` is that of the rod, m. Many scans take seconds, so `goes_on` is asked before each.
 pub(crate) fn candidates_of(
     hypotheses: &[Hypothesis],
     scans: impl IntoIterator<Item = StraightScan>,
     length: f64,
+    goes_on: &dyn Fn() -> bool,
 ) -> Result<Vec<Candidate>, PlanError> {
     let candidate = |scan: StraightScan| {
         let frames = || {
@@ -240,11 +246,11 @@ pub(crate) fn candidates_of(
             within.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| (ends.0.min(place), ends.1.max(place)));
         Ok(Candidate { scan: Some(scan), path: Arc::new(scan.path(nearest, across, length)?) })
     };
-    scans.into_iter().map(candidate).collect()
+    scans.into_iter().take_while(|_| goes_on()).map(candidate).collect()
 }
 
 /// What each of some candidate scans is expected to add to what is `known` of an object, on all cores, without friction. `goes_on` hears how many
-/// candidates are done, and ends the work where it returns false.
+/// candidates are done, also within a scan, and ends the work where it returns false.
 ///
 /// # Errors
 /// [`PlanError::NothingKnown`] where no point is known.
@@ -255,6 +261,9 @@ pub fn plan<R: PhysicalRod + Sync>(
     settings: &PlanSettings,
     goes_on: &(impl Fn(usize) -> bool + Sync),
 ) -> Result<Plan, PlanError> {
+    if !goes_on(0) {
+        return Ok(Plan { hypotheses: Vec::new(), forecasts: Vec::new(), new: Vec::new() });
+    }
     if candidates.is_empty() {
         return Err(PlanError::Empty { what: "candidates" });
     }
@@ -272,10 +281,10 @@ pub(crate) fn plan_of<R: PhysicalRod + Sync>(
     goes_on: &(impl Fn(usize) -> bool + Sync),
 ) -> Result<Plan, PlanError> {
     let places = hypotheses.first().map_or_else(Vec::new, |one| known_places(known, one));
-    let done = AtomicUsize::new(0);
+    let progress = Progress::new(goes_on);
     let one = |candidate: &Candidate| {
-        let found = forecast(rod, &places, &hypotheses, candidate.clone(), (settings, most_stress));
-        (found, goes_on(done.fetch_add(1, Ordering::Relaxed) + 1))
+        let found = forecast(rod, &places, &hypotheses, candidate.clone(), (settings, most_stress), &progress);
+        (found, progress.count())
     };
     let found = candidates.par_iter().map(one).take_any_while(|(_, goes_on)| *goes_on).map(|(found, _)| found);
     let (forecasts, new) = found.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
@@ -288,6 +297,7 @@ fn forecast<R: PhysicalRod>(
     hypotheses: &[Hypothesis],
     candidate: Candidate,
     (settings, most_stress): (&PlanSettings, Option<f64>),
+    progress: &Progress<'_>,
 ) -> Result<(Forecast, Vec<Vec<IntervalSet>>), PlanError> {
     let path = candidate.path.clone();
     let (mut new, mut gains, mut touched) = (Vec::new(), Vec::new(), 0.0);
@@ -310,7 +320,7 @@ fn forecast<R: PhysicalRod>(
         // only of the most plausible object are the states themselves of use
         let step = if number == 0 { scanned::STEP } else { COARSE } * rod.units().length;
         let computation = Computation { step, most_steps: Some(MOST_STEPS), most_stress };
-        let (found, states) = Scanned::of(rod, objects, outlines, &path, computation)?;
+        let (found, states) = Scanned::of(rod, objects, outlines, &path, computation, progress)?;
         let all: Vec<IntervalSet> = (0..objects.len()).map(|object| found.touched.all(object)).collect();
         let fresh: Vec<IntervalSet> = all.iter().zip(before).map(|(all, before)| all.without(before)).collect();
         gains.push(fresh.iter().map(IntervalSet::length).sum::<f64>());

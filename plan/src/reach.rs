@@ -1,7 +1,7 @@
 //! What of an object the scans of a grid of distances and angles touch.
 
 use crate::scan::{Pass, StraightScan};
-use crate::scanned::{self, Computation};
+use crate::scanned::{self, Computation, Progress};
 use crate::support::{HalfPlane, along, nearest, outline};
 use crate::{Outline, PlanError, Scanned, Touched};
 use rayon::prelude::*;
@@ -9,7 +9,6 @@ use rod_contact::{ContactError, Path};
 use rod_contours::Composite;
 use rod_core::PhysicalRod;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The scans that are tried: all distances at all angles, each with passes to both sides.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,7 +84,7 @@ impl Reach {
 }
 
 /// Sweeps `rod` past `objects` on all scans of a grid, on all cores, and collects what the contacts go over, without friction. `goes_on` hears
-/// how many scans are done, and ends the work where it returns false.
+/// how many scans are done, also within a scan, and ends the work where it returns false.
 ///
 /// Where several objects are near each other, the distance counts from the nearest of them. The clamp passes on the near side of all objects.
 ///
@@ -101,7 +100,7 @@ pub fn reach<R: PhysicalRod + Sync>(
     let length = rod.units().length;
     let of_angle = |&angle: &f64| {
         let of_object = |(number, object): (usize, &Composite)| {
-            nearest(object, angle).ok_or(PlanError::NoNearest { object: number + 1, angle })
+            nearest(object, angle).ok_or(PlanError::NoNearest { object: number, angle })
         };
         let all = objects.iter().enumerate().map(of_object).collect::<Result<Vec<_>, _>>()?;
         Ok(all.into_iter().fold(f64::INFINITY, f64::min))
@@ -115,19 +114,18 @@ pub fn reach<R: PhysicalRod + Sync>(
         .map(|(&angle, near)| HalfPlane { angle, limit: near - closest + length })
         .collect();
     let endless = |(number, object): (usize, &Composite)| {
-        outline(object, &half_planes).ok_or(PlanError::Endless { object: number + 1 })
+        outline(object, &half_planes).ok_or(PlanError::Endless { object: number })
     };
     let outlines = objects.iter().enumerate().map(endless).collect::<Result<Vec<_>, _>>()?;
     let scans: Vec<(StraightScan, f64)> = grid
         .scans()
         .zip(nearest.iter().flat_map(|near| std::iter::repeat_n(*near, 2 * grid.distances.len())))
         .collect();
-    let done = AtomicUsize::new(0);
+    let progress = Progress::new(goes_on);
     let one = |&(scan, near): &(StraightScan, f64)| {
         let limit = near - scan.distance + length;
-        let found = scan_reach(rod, objects, &outlines, scan, (near, limit), grid.step);
-        let goes_on = goes_on(done.fetch_add(1, Ordering::Relaxed) + 1);
-        (found, goes_on)
+        let found = scan_reach(rod, objects, &outlines, scan, (near, limit), (grid.step, &progress));
+        (found, progress.count())
     };
     let found = scans.par_iter().map(one).take_any_while(|(_, goes_on)| *goes_on).map(|(found, _)| found);
     let scans = found.collect::<Result<Vec<_>, _>>()?;
@@ -141,7 +139,7 @@ fn scan_reach<R: PhysicalRod>(
     outlines: &[Outline],
     scan: StraightScan,
     (near, limit): (f64, f64),
-    step: f64,
+    (step, progress): (f64, &Progress<'_>),
 ) -> Result<ScanReach, PlanError> {
     let left = scan.angle + std::f64::consts::FRAC_PI_2;
     let places = objects.iter().zip(outlines).flat_map(|(object, outline)| outline.points(object));
@@ -149,5 +147,5 @@ fn scan_reach<R: PhysicalRod>(
     let across = within.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| (ends.0.min(place), ends.1.max(place)));
     let path: Arc<dyn Path> = Arc::new(scan.path(near, across, rod.units().length)?);
     let computation = Computation { step, most_steps: None, most_stress: None };
-    Ok(ScanReach { scan, found: Scanned::of(rod, objects, outlines, &path, computation)?.0 })
+    Ok(ScanReach { scan, found: Scanned::of(rod, objects, outlines, &path, computation, progress)?.0 })
 }

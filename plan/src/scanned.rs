@@ -6,6 +6,7 @@ use rod_contact::{Chain, Event, EventKind, Item, Path, State, Stop, Sweep};
 use rod_contours::Composite;
 use rod_core::PhysicalRod;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Distance of the states of a sweep, rod lengths. Smaller: slower; the ends of what is touched are exact all the same.
 pub(crate) const STEP: f64 = 0.01;
@@ -38,14 +39,46 @@ pub(crate) struct Computation {
     pub most_stress: Option<f64>,
 }
 
+/// How many scans are done, and whether to go on.
+pub(crate) struct Progress<'a> {
+    goes_on: &'a (dyn Fn(usize) -> bool + Sync),
+    done: AtomicUsize,
+    is_ended: AtomicBool,
+}
+
+impl<'a> Progress<'a> {
+    /// `goes_on` hears how many scans are done. From its first false on the work ends.
+    pub fn new(goes_on: &'a (dyn Fn(usize) -> bool + Sync)) -> Self {
+        Self { goes_on, done: AtomicUsize::new(0), is_ended: AtomicBool::new(false) }
+    }
+
+    /// Whether to go on within a scan.
+    fn goes_on(&self) -> bool {
+        self.ask(self.done.load(Ordering::Relaxed))
+    }
+
+    /// A scan is done; whether to go on, and the scan is complete.
+    pub fn count(&self) -> bool {
+        self.ask(self.done.fetch_add(1, Ordering::Relaxed) + 1)
+    }
+
+    fn ask(&self, done: usize) -> bool {
+        if !(self.goes_on)(done) {
+            self.is_ended.store(true, Ordering::Relaxed);
+        }
+        !self.is_ended.load(Ordering::Relaxed)
+    }
+}
+
 impl Scanned {
-    /// A scan along a path, and its states at equal distances.
+    /// A scan along a path, and its states at equal distances. Ended early, it is of no use.
     pub(crate) fn of<R: PhysicalRod>(
         rod: &R,
         objects: &[Composite],
         outlines: &[Outline],
         path: &Arc<dyn Path>,
         Computation { step, most_steps, most_stress }: Computation,
+        progress: &Progress<'_>,
     ) -> Result<(Self, Vec<State>), PlanError> {
         let (mut found, mut trail, mut states) = (Self::default(), Trail::default(), Vec::new());
         let mut sweep = Sweep::new(rod, objects, Chain::new(vec![path.clone()])?, step)?;
@@ -65,7 +98,7 @@ impl Scanned {
                 }
                 Err(stop) => found.stop = Some(stop),
             }
-            if found.is_beyond(most_stress) {
+            if found.is_beyond(most_stress) || !progress.goes_on() {
                 break;
             }
         }

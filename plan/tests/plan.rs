@@ -5,7 +5,9 @@ use rod_contours::{CircularArc, Composite, Contour};
 use rod_core::Rod;
 use rod_plan::{Measurement, Plan, PlanSettings, ReachGrid, plan, reach, straight_candidates};
 use rod_reconstruct::{FittedObject, Knowledge};
+use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const RADIUS: f64 = 0.25;
 
@@ -30,7 +32,7 @@ fn grid(angles: usize) -> ReachGrid {
 }
 
 fn planned(angles: usize, settings: &PlanSettings) -> Plan {
-    let candidates = straight_candidates(&rod(), &known(), &grid(angles), settings).unwrap();
+    let candidates = straight_candidates(&rod(), &known(), &grid(angles), settings, &|| true).unwrap();
     plan(&rod(), &known(), &candidates, settings, &|_| true).unwrap()
 }
 
@@ -54,6 +56,21 @@ fn greedy_scans_are_near_the_best_ones_and_come_from_other_sides() {
     assert!(first.value > 2.0 * from_below.gain, "{first:?} {from_below:?}");
     let angle = plan.forecasts[first.candidate].candidate.scan.unwrap().angle;
     assert!((angle - FRAC_PI_2).abs() > 0.5);
+}
+
+/// The end is asked for within a scan, too: one alone may take minutes.
+#[test]
+fn a_plan_ends_within_a_scan() {
+    let settings = PlanSettings { hypotheses: 1, ..PlanSettings::default() };
+    let candidates = straight_candidates(&rod(), &known(), &grid(2), &settings, &|| true).unwrap();
+    let left = Cell::new(3);
+    let fewer = straight_candidates(&rod(), &known(), &grid(2), &settings, &|| left.replace(left.get() - 1) > 0);
+    assert_eq!(fewer.unwrap().len(), 3);
+    let asked = AtomicUsize::new(0);
+    let ended = plan(&rod(), &known(), &candidates[..1], &settings, &|_| asked.fetch_add(1, Ordering::Relaxed) < 5);
+    assert!(ended.unwrap().forecasts.is_empty());
+    // at the first no, at the first state past the second object, and when the candidate is done
+    assert_eq!(asked.load(Ordering::Relaxed), 8);
 }
 
 /// A rod that must not bend so far is given other scans, or none.
@@ -106,7 +123,7 @@ fn twice_the_noise_is_twice_the_sigma_and_what_is_known_gets_better() {
     let run = |noise: f64| {
         let measurement = Some(measurement(noise * stiffness));
         let settings = PlanSettings { hypotheses: 1, measurement, ..PlanSettings::default() };
-        let candidates = straight_candidates(&rod(), &known(), &grid(4), &settings).unwrap();
+        let candidates = straight_candidates(&rod(), &known(), &grid(4), &settings, &|| true).unwrap();
         plan(&rod(), &known(), &candidates[..2], &settings, &|_| true).unwrap().forecasts.swap_remove(0)
     };
     let [one, two] = [0.1, 0.2].map(run);

@@ -6,6 +6,7 @@ use rod_contours::{CircularArc, Composite, Contour, Parabola};
 use rod_core::{Pose, Rod};
 use rod_plan::{IntervalSet, Pass, PlanError, Reach, ReachGrid, reach};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn rod() -> Rod {
     Rod::new(1.0, 1.0).unwrap()
@@ -149,7 +150,7 @@ fn scans_that_cannot_be_are_refused() {
     assert!(refused(&[0.5], &[-FRAC_PI_2]).starts_with("angles has -1.57"), "{}", refused(&[0.5], &[-FRAC_PI_2]));
     let floor = Composite::single(Parabola::new([0.0, 0.0], 0.0).unwrap()).unwrap();
     let grid = ReachGrid { distances: vec![0.5], angles: vec![0.25 * PI], step: 0.01 };
-    assert!(matches!(reach(&rod(), &[floor], &grid, &|_| true), Err(PlanError::NoNearest { object: 1, .. })));
+    assert!(matches!(reach(&rod(), &[floor], &grid, &|_| true), Err(PlanError::NoNearest { object: 0, .. })));
 }
 
 #[test]
@@ -157,4 +158,15 @@ fn the_work_ends_when_it_is_told_to() {
     let grid = ReachGrid { distances: vec![0.3; 40], angles: vec![FRAC_PI_2], step: 0.01 };
     let reach = reach(&rod(), &[circle(0.2)], &grid, &|done| done < 4).unwrap();
     assert!(reach.scans.len() < 80);
+}
+
+/// A scan of ten thousand states is not swept to its end.
+#[test]
+fn the_work_ends_within_a_scan() {
+    let grid = ReachGrid { distances: vec![0.3], angles: vec![FRAC_PI_2], step: 1e-4 };
+    let asked = AtomicUsize::new(0);
+    let ended = reach(&rod(), &[circle(0.2)], &grid, &|_| asked.fetch_add(1, Ordering::Relaxed) < 5);
+    assert!(ended.unwrap().scans.is_empty());
+    // each of the two scans hears no at most once within, and once when it is done
+    assert!(asked.load(Ordering::Relaxed) <= 9);
 }

@@ -346,6 +346,6 @@ pub fn _forces(
     let settings = ForceSettings { friction, sigma, most_contacts: contacts, pole, most_shortening: shortening };
     let found = running::run(py, || FilmForces::of("frames".into(), all, rest.as_deref(), rod, &settings))?;
     let found = found.map_err(|error| errors::value(format!("rest: {error}")))?;
-    found.base_in_doubt().map_or(Ok(()), |text| errors::warn(py, &text))?;
+    found.base_in_doubt(["visible=\"tip\"", "channels"]).map_or(Ok(()), |text| errors::warn(py, &text))?;
     Ok(PyForces { found })
 }

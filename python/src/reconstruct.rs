@@ -39,7 +39,7 @@ const KINK: &[Column<Kink>] = &[
 ];
 
 pub const FITTED: &[Column<FittedPoint>] = &[
-    Column { name: "object", get: Get::Int(|row| row.object as i64 - 1) },
+    Column { name: "object", get: Get::Int(|row| row.object as i64) },
     Column { name: "x", get: Get::Float(|row| row.x) },
     Column { name: "y", get: Get::Float(|row| row.y) },
     Column { name: "known", get: Get::Text(|row| row.known.into()) },

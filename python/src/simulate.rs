@@ -9,7 +9,7 @@ use crate::samples::SAMPLE;
 use crate::scene::PyScene;
 use crate::{errors, running};
 use pyo3::prelude::*;
-use rod_files::{RodOnPath, SimulationError, Tick, Ticks, read_noise};
+use rod_files::{RodOnPath, Tick, Ticks, read_noise};
 use std::path::PathBuf;
 use vibrissa::Sample;
 use vibrissa::contact::Stop;
@@ -97,10 +97,8 @@ pub fn simulate<'py>(
     };
     let legs = legs.iter().map(Leg::path).collect();
     let swept = RodOnPath { rod: &scene.rod.get().rod, objects: &objects, legs, friction: friction.as_ref() };
-    // of the command, whose options have the names of the arguments
-    let wrong = |error: SimulationError| errors::value(error.to_string().replace("--", ""));
     let recorded = running::run(py, || {
-        let ticks = Ticks::new(&swept, &noise, [rate, speed], seed).map_err(wrong)?;
+        let ticks = Ticks::new(&swept, &noise, [rate, speed], seed).map_err(errors::value)?;
         Ok::<_, PyErr>(recorded(ticks, rate))
     })?;
     match recorded? {

@@ -34,6 +34,16 @@ def test_code_of_the_readme(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> 
     assert names["scan"].phases and list(tmp_path.glob("*.png"))
 
 
+def test_code_of_the_page_on_speed(capsys: pytest.CaptureFixture[str]) -> None:
+    page = (README.parents[1] / "docs/speed-against-error.md").read_text()
+    (block,) = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    names: dict[str, Any] = {}
+    exec(block, names)
+    assert re.fullmatch(r"1001 states, 7 events in [0-9.]+ ms\n", capsys.readouterr().out)
+    # a thousand times what it takes: not a measurement, but no trial of seconds either
+    assert min(names["times"]) < 2.0
+
+
 def test_everything_public_has_a_docstring() -> None:
     for name in vibrissa.__all__:
         one = getattr(vibrissa, name)

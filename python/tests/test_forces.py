@@ -122,7 +122,7 @@ def test_an_end_that_was_not_seen_is_not_taken_for_one() -> None:
     found = vibrissa.forces(ROD, lost, sigma=5e-5)
     assert not (found.frames["verdict"] == "determined").any()
     # without the gap the fifth point would be the base, and the moment that at the fifth point
-    with pytest.warns(UserWarning, match="the first point is taken for the base"):
+    with pytest.warns(UserWarning, match="the first point is taken for the base.*Then use visible=.tip., or measure the base .base_x, base_y with channels,"):
         wrong = vibrissa.forces(ROD, [one[4:] for one in whole], sigma=5e-5)
     table = wrong.frames[wrong.frames["verdict"] == "determined"]
     true = np.array([states[number].reactions[2] for number in table["frame"]])

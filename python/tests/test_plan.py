@@ -5,7 +5,10 @@ from __future__ import annotations
 import csv
 import math
 import shutil
+import signal
 import subprocess
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -61,6 +64,21 @@ def test_numbers_are_those_of_the_command(found: vibrissa.Reconstruction, comman
     assert [int(row["chosen"] or 0) for row in theirs] == list(ours["chosen"])
     for name in ("angle", "x_from", "y_to", "gain", "gain_sigma", "largest_stress", "sigma", "known_sigma_after"):
         np.testing.assert_array_equal([float(row[name] or "nan") for row in theirs], ours[name], err_msg=name)
+
+
+def test_ctrl_c_ends_a_plan(found: vibrissa.Reconstruction) -> None:
+    timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
+    # a shell that runs the tests in the background lets them ignore Ctrl-C
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    began = time.monotonic()
+    timer.start()
+    try:
+        # minutes of work
+        with pytest.raises(KeyboardInterrupt):
+            vibrissa.plan(found, distances=list(np.linspace(0.03, 0.08, 200)), stress="any", noise=NOISE)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert time.monotonic() - began < 5.0
 
 
 def test_wrong_arguments_are_named(found: vibrissa.Reconstruction) -> None:

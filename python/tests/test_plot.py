@@ -343,6 +343,9 @@ def test_the_notch_has_the_points_of_both_contacts(scan: vibrissa.Scan) -> None:
     off = np.abs(gap(x, y))
     assert np.nanmax(off) > 1e-3 and len(one.get_xdata()) > len(x)  # type: ignore[arg-type]
     assert_legible(ax)
+    # its names are long for the width of a column
+    (legend,) = figure_of(ax).legends
+    assert legend.get_window_extent().width <= figure_of(ax).bbox.width
     with pytest.raises(ValueError, match="no point of two contacts"):
         vibrissa.plot.notches(vibrissa.reconstruct(scan.rod, fine.states[: int(np.flatnonzero(found.readings["label"] == "BB")[0])]))
 

@@ -43,8 +43,13 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
     let rim = |cross: f64| found.film.pole.as_ref().map(|pole| rim(pole, cross)).unwrap_or_default();
     let extent = rim(0.0);
     let all = || dots().chain(rods.iter().flatten().copied()).chain(extent.iter().flatten().copied());
+    let missing = match (found.family_count(), found.settings.pole) {
+        (count @ 1.., None) => format!("; {count} of them family: --pole may determine them"),
+        _ => String::new(),
+    };
     if all().next().is_none() {
-        return svg((PAGE, HEAD), |root| write(root, &found.name, (24, 36), HPos::Left, TITLE, INK));
+        let notes = [format!("{WITHOUT}{missing}"), String::new()];
+        return svg((PAGE, HEAD), |root| title(root, &format!("{}: no points", found.name), &notes));
     }
     let largest =
         judged().flat_map(|judged| &judged.contacts).fold(f64::MIN_POSITIVE, |most, contact| most.max(contact.force));
@@ -79,7 +84,7 @@ pub(crate) fn frames(found: &FilmForces) -> Result<String, FigureError> {
             format!("{from}: forces on the rod, the longest {:.2} {name}", largest / unit)
         };
         let pole = if extent.is_empty() { "" } else { "; black: the pole" };
-        let notes = [format!("dots: points; lines: the rod; {said}{pole}"), format!("{WITHOUT}{shown}")];
+        let notes = [format!("dots: points; lines: the rod; {said}{pole}"), format!("{WITHOUT}{missing}{shown}")];
         title(&head, &format!("{}: the rod and the forces on it", found.name), &notes)?;
         let chart = window.chart(&area, (12, 8))?;
         chart.draw_series(rods.iter().map(|rod| {

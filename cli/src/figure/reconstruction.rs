@@ -62,7 +62,7 @@ pub(crate) fn reconstruction(found: &Reconstructed) -> Result<String, FigureErro
             (tangential, "B", single(Label::B).next()),
             (FIRST, "first of several", first().next()),
             (SECOND, "second of several", second().next()),
-            (NAIVE, "several taken for one", seen.first().copied()),
+            (NAIVE, "naive: one contact assumed", seen.first().copied()),
         ];
         let drawn = entries.into_iter().filter(|(_, _, point)| point.is_some());
         let entries: Vec<(Dot, &str)> = drawn.map(|(dot, name, _)| (dot, name)).collect();
@@ -97,7 +97,7 @@ fn millimetres(touch: Touch) -> (f64, f64) {
 /// How far the points are from the contour.
 fn errors(comparison: &Comparison) -> String {
     let Comparison { single, first, second, naive, .. } = comparison;
-    let kinds = [("one contact", single), ("first", first), ("second", second), ("several taken for one", naive)];
+    let kinds = [("one contact", single), ("first", first), ("second", second), ("naive: one contact assumed", naive)];
     let text = |(name, deviation): (&str, &Option<Deviation>)| {
         deviation.map(|d| format!("{name} {:.1e} ({:.1e})", 1e3 * d.median, 1e3 * d.largest))
     };

@@ -8,7 +8,8 @@
 
     const apart = ([ax, ay], [bx, by]) => Math.hypot(ax - bx, ay - by);
 
-    /// `wishes` has pose(), moveClamp(dx, dy), turnTo(angle), turn(angle), handles(), moveHandle(index, point), press(key).
+    /// `wishes` has pose(), moveClamp(dx, dy), moveChosen(dx, dy), turnTo(angle), turn(angle), handles(), moveHandle(index, point), press(key,
+    /// shift).
     (globalThis.playground ??= {}).Input = class Input {
         #view;
         #canvas;
@@ -26,7 +27,7 @@
             canvas.addEventListener('blur', () => this.#held.clear());
         }
 
-        /// Held keys move the clamp by so much in `seconds`.
+        /// Held keys move the clamp, or the handle that keys have chosen, by so much in `seconds`.
         frame(seconds) {
             for (const [key, { shift, slow }] of this.#held) this.#go(key, shift, seconds * (slow ? 0.1 : 1));
         }
@@ -34,7 +35,7 @@
         #go(key, shift, seconds, least = [0, 0]) {
             const [x, y] = ARROWS[key];
             const way = Math.max(least[0], SPEED * seconds);
-            if (!shift) this.#wishes.moveClamp(x * way, y * way);
+            if (!shift) this.#wishes.moveChosen(x * way, y * way);
             // counterclockwise to the left, as the whisker tilts
             else this.#wishes.turn((y - x) * Math.max(least[1], TURN * seconds));
         }
@@ -48,7 +49,7 @@
                     this.#go(event.key, event.shiftKey, 0, [TAP * slow, TAP_TURN * slow]);
                 }
                 this.#held.set(event.key, { shift: event.shiftKey, slow: event.altKey });
-            } else if (event.repeat || !this.#wishes.press(event.key.toLowerCase())) {
+            } else if (event.repeat || !this.#wishes.press(event.key.toLowerCase(), event.shiftKey)) {
                 return;
             }
             event.preventDefault();

@@ -30,6 +30,8 @@
     // the chart's time, s: it stands still with the clamp, so that a scan stays in the chart
     let motion = 0, charted;
     let refused, respite = 0, isDirty = true, movedAt = 0, nextEdit;
+    // number of the handle that keys move; undefined: they move the clamp
+    let chosen;
 
     async function compiled(base64) {
         const packed = Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
@@ -132,13 +134,13 @@
     // Handles of the shapes, and what moving them does.
     function handles() {
         if (!id('edit-object').checked) return [];
-        return scene.shapes.flatMap(shape => shape.shape === 'parabola' ? [shape.vertex]
+        return (nextEdit ?? scene).shapes.flatMap(shape => shape.shape === 'parabola' ? [shape.vertex]
             : shape.shape === 'disc' ? [shape.center, [shape.center[0] + shape.radius, shape.center[1]]] : shape.points);
     }
 
     function moveHandle(moved, point) {
         let index = moved;
-        const shapes = structuredClone(scene.shapes);
+        const shapes = structuredClone((nextEdit ?? scene).shapes);
         for (const shape of shapes) {
             const count = shape.shape === 'parabola' ? 1 : shape.shape === 'disc' ? 2 : shape.points.length;
             if (index >= count) {
@@ -155,6 +157,23 @@
         nextEdit = { ...scene, shapes };
     }
 
+    /// Chooses the handle that keys move: the next or, by `way` -1, the one before; behind the last one the clamp again.
+    function choose(way) {
+        id('edit-object').checked = isDirty = true;
+        // the clamp is one more place in the row
+        const places = handles().length + 1, place = ((chosen ?? places - 1) + way + places) % places;
+        chosen = place < places - 1 ? place : undefined;
+        panel.say(chosen === undefined ? 'Arrow keys move the clamp.'
+            : `Arrow keys move handle ${chosen + 1} of ${places - 1} of the object. H: the next one, Esc: the clamp again.`);
+    }
+
+    function unchoose() {
+        if (chosen === undefined) return false;
+        [chosen, isDirty] = [undefined, true];
+        panel.say('Arrow keys move the clamp.');
+        return true;
+    }
+
     const limited = (value, reach) => Math.min(reach, Math.max(-reach, value));
     const wishes = {
         pose: () => state.pose,
@@ -163,6 +182,11 @@
         moveClamp(dx, dy) {
             scanning = false;
             wish = [limited(wish[0] + dx, REACH[0]), limited(wish[1] + dy, REACH[1]), wish[2]];
+        },
+        moveChosen(dx, dy) {
+            const handle = handles()[chosen];
+            if (handle) moveHandle(chosen, [limited(handle[0] + dx, REACH[0]), limited(handle[1] + dy, REACH[1])]);
+            else this.moveClamp(dx, dy);
         },
         turn(angle) {
             scanning = false;
@@ -176,7 +200,9 @@
         released() {
             if (refused) [wish, refused] = [[...state.pose], undefined];
         },
-        press(key) {
+        press(key, shift) {
+            if (key === 'h') return choose(shift ? -1 : 1), true;
+            if (key === 'escape') return unchoose();
             const button = { r: 'reset', s: 'scan', ' ': 'record' }[key];
             if (button) id(button).click();
             return button !== undefined;
@@ -215,7 +241,7 @@
         // wires are thin: ten times as thick as to scale
         const base = Math.max(2, Math.min(12, 10 * diameter * view.scale * 0.3));
         view.draw({
-            state, outlines, handles: handles(), hidden: id('hide-object').checked,
+            state, outlines, handles: handles(), chosen, hidden: id('hide-object').checked,
             trail: id('show-trail').checked ? trail : [],
             unit: stiffness(scene.rod) / length ** 2, diameters: [base, base * taper],
         }, now);
@@ -282,10 +308,12 @@
     for (const [name, [text]] of Object.entries(OBJECTS)) id('object').append(new Option(text, name));
     id('object').addEventListener('change', () => {
         restart();
+        chosen = undefined;
         const other = preset(id('object').value);
         edit({ ...scene, ...other }, other.home);
     });
     for (const check of ['show-trail', 'hide-object', 'edit-object']) id(check).addEventListener('change', () => { isDirty = true; });
+    id('edit-object').addEventListener('change', unchoose);
     id('clear-trail').addEventListener('click', clearTrail);
     id('reset').addEventListener('click', () => {
         restart();

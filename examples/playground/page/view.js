@@ -74,14 +74,14 @@
             this.#ghost = { shape, since: now };
         }
 
-        draw({ state, outlines, trail, handles, hidden, unit, diameters }, now) {
+        draw({ state, outlines, trail, handles, chosen, hidden, unit, diameters }, now) {
             const pen = this.#pen;
             pen.clearRect(0, 0, this.#width, this.#height);
             pen.lineJoin = pen.lineCap = 'round';
             this.#grid();
             if (!hidden) for (const outline of outlines) this.#object(outline);
             for (const point of trail) this.#recovered(point);
-            for (const handle of handles) this.#handle(handle);
+            handles.forEach((handle, index) => this.#handle(handle, index === chosen));
             this.#fade(now);
             this.#whisker(state.shape, diameters);
             this.#clamp(state.pose);
@@ -170,10 +170,10 @@
             pen.stroke();
         }
 
-        #handle(at) {
+        #handle(at, isChosen) {
             const pen = this.#pen, [x, y] = this.toPixels(at);
-            mark(pen, 'notch', x, y, 5);
-            pen.fillStyle = this.#colour('page');
+            mark(pen, 'notch', x, y, isChosen ? 8 : 5);
+            pen.fillStyle = this.#colour(isChosen ? 'edge' : 'page');
             pen.fill();
             pen.strokeStyle = this.#colour('edge');
             pen.lineWidth = 2;

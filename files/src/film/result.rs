@@ -136,6 +136,11 @@ impl FilmForces {
         let judged = self.film.frames.iter().flatten();
         (faults, judged.filter(|judged| judged.verdict == FrameVerdict::NotExplained).count())
     }
+
+    /// How many frames have a family of contacts, and no force of their own.
+    pub fn family_count(&self) -> usize {
+        self.film.frames.iter().flatten().filter(|judged| judged.verdict == FrameVerdict::Family).count()
+    }
 }
 
 /// Writes a result, or removes an earlier one.

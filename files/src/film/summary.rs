@@ -77,10 +77,28 @@ impl FilmForces {
                 pole.p_value
             )?;
         }
+        if let Some(families) = self.families() {
+            writeln!(text, "{families}")?;
+        }
         if !self.rod.is_stiffness_known {
             writeln!(text, "no stiffness is given: forces are in EI/L^2, moments in EI/L, with EI at the base")?;
         }
         Ok(())
+    }
+
+    /// The frames whose contact is not determined, and what may determine it.
+    fn families(&self) -> Option<String> {
+        let count = self.family_count();
+        let pole = match self.settings.pole {
+            None => "; if all frames touch one round pole, --pole finds it, and with it the forces",
+            Some(_) => "",
+        };
+        (count > 0).then(|| {
+            format!(
+                "{} of verdict family without a force of their own: many places of the contact, each with its force, explain them{pole}",
+                counted(count, "frame")
+            )
+        })
     }
 
     /// What may be wrong: frames with faults, frames that nothing explains, a rod of which the points show a part.
@@ -115,7 +133,7 @@ impl FilmForces {
         warnings.extend(self.pole_in_doubt());
         warnings.extend(self.less_noise());
         warnings.extend(self.much_noise());
-        warnings.extend(self.base_in_doubt().or_else(|| self.part_of_the_rod()));
+        warnings.extend(self.base_in_doubt(["--visible tip", "--channels"]).or_else(|| self.part_of_the_rod()));
         if !self.ignored.is_empty() {
             warnings.push(format!("not used: column {}", self.ignored.join(", ")));
         }
@@ -174,8 +192,8 @@ impl FilmForces {
     }
 
     /// Forces that depend on whether the first point is the base of the rod: none if the points show that, the base was measured, or neither force
-    /// nor moment changes by more than 5 %.
-    pub fn base_in_doubt(&self) -> Option<String> {
+    /// nor moment changes by more than 5 %. A front end has its own names for what states that the tip is seen, and for the measured channels.
+    pub fn base_in_doubt(&self, [tip, channels]: [&str; 2]) -> Option<String> {
         let others = self.film.frames.iter().flatten().filter_map(|judged| Some((judged, judged.if_hidden?)));
         let [mut forces, mut moments, mut lengths] = [(); 3].map(|()| Vec::new());
         for (judged, other) in others {
@@ -192,8 +210,8 @@ impl FilmForces {
         (force.abs().max(moment.abs()) > MATTERS).then(|| {
             format!(
                 "the first point is taken for the base. If it is not, and the {length:.2} mm of the rod that no point shows are before it, the force \
-                 changes by {:+.0} % and the moment at the base by {:+.0} % (medians of {count}). Then use --visible tip, or measure the base \
-                 (base_x, base_y with --channels, and an empty first row of each frame)",
+                 changes by {:+.0} % and the moment at the base by {:+.0} % (medians of {count}). Then use {tip}, or measure the base \
+                 (base_x, base_y with {channels}, and an empty first row of each frame)",
                 1e2 * force,
                 1e2 * moment
             )

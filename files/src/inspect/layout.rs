@@ -4,7 +4,8 @@ use super::report::InspectedFile;
 use crate::ReadOptions;
 use std::path::Path;
 use vibrissa::hw::recording::{
-    ColumnMap, Decimal, FileFormat, Header, Outline, Part, Table, TableError, TableOptions, TableProblem,
+    Column, ColumnMap, Constant, Decimal, FileFormat, Header, Outline, Part, Table, TableError, TableOptions,
+    TableProblem,
 };
 
 /// The table of a file, and where its names come from; none where it cannot be read, which is a fault.
@@ -13,7 +14,8 @@ pub(super) fn layout(
     read: &ReadOptions,
     file: &mut InspectedFile,
 ) -> Option<(Table, Header, ReadOptions)> {
-    let mut options = TableOptions { units: Vec::new(), ..read.options.clone() };
+    let constants = constants(path, read);
+    let mut options = TableOptions { units: Vec::new(), constants: constants.clone(), ..read.options.clone() };
     let mut outline = Outline::read(path, &options);
     if matches!(&outline, Err(TableError { problem: TableProblem::NoHeader, .. })) {
         options.header = Header::None;
@@ -39,13 +41,31 @@ pub(super) fn layout(
         let found = format!("a second table beside the first, behind an empty column: {}", names(part));
         file.prevents(part.line, "table", found, "one table; save each in a file of its own");
     }
-    let read = of_this(&table, read);
+    let mut read = of_this(&table, read);
+    read.options.constants = constants;
     let mut table = table;
     if !read.options.units.is_empty() {
         let options = TableOptions { units: read.options.units.clone(), ..options.clone() };
         table = Table::read(path, &options).ok()?;
     }
     Some((table, options.header, read))
+}
+
+/// What the user said of values that stay the same: those of the table of a stage are for files with a coordinate of the clamp.
+fn constants(path: &Path, read: &ReadOptions) -> Vec<Constant> {
+    let mut constants = read.options.constants.clone();
+    if let Some(stage) = read.stage.as_deref().filter(|stage| !stage.options.constants.is_empty()) {
+        let without = TableOptions { units: Vec::new(), constants: Vec::new(), ..read.options.clone() };
+        let assigned: Vec<&str> = stage.columns.assigned().map(|(_, name)| name).collect();
+        let is_of_stage = |column: &Column| {
+            matches!(column.name.as_str(), "x0" | "y0" | "phi0")
+                || assigned.iter().any(|name| [&column.name, &column.heading].contains(&&(*name).to_owned()))
+        };
+        if Table::read(path, &without).is_ok_and(|table| table.columns().iter().any(is_of_stage)) {
+            constants.extend(stage.options.constants.iter().cloned());
+        }
+    }
+    constants
 }
 
 /// What the user said of columns that this file has: of several files one may have them.

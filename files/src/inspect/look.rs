@@ -88,6 +88,7 @@ impl Look {
         let read = &read;
         self.proposal.layout.header = header;
         self.proposal.layout.units.clear();
+        self.proposal.layout.constants.clone_from(&read.options.constants);
         let is_named = self.proposal.layout.header != Header::None;
         let mut found = guess(&table, is_named, &read.columns);
         let supposed = suppose(&table, &found);
@@ -203,9 +204,12 @@ impl Look {
                 missing.join(", "),
                 missing[0],
                 if missing.iter().any(|name| matches!(*name, "x0" | "y0" | "phi0")) {
-                    ": a coordinate or angle that stays the same is a column of one number"
+                    format!(
+                        "; a coordinate or angle that stays the same needs no column: --column {}",
+                        if missing.contains(&"phi0") { "phi0=90deg" } else { "y0=-40mm" }
+                    )
                 } else {
-                    ""
+                    String::new()
                 }
             );
             self.report.prevents(

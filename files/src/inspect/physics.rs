@@ -322,7 +322,8 @@ fn agreement(rated: &Rated, columns: &[Measured; 6]) -> String {
     let reversed: String = reversed.map(|k| format!(", {} reversed", columns[k].name)).collect();
     let (explained, energy) = (100.0 * rated.explained, rated.energy);
     format!(
-        "{}{reversed}: {explained:.0} % of the contact explained, concordance of work and elastic energy {energy:+.2}",
+        "{}{reversed}: a rod with one contact explains {explained:.0} % of the samples in contact, and the work of the clamp follows the elastic energy by {energy:+.2} \
+         (1: wholly, 0: not at all)",
         rated.hypothesis.frame.text(names)
     )
 }
@@ -330,16 +331,17 @@ fn agreement(rated: &Rated, columns: &[Measured; 6]) -> String {
 fn report(file: &mut InspectedFile, found: &Verdict, columns: &[Measured; 6], source: Source, has_rod: bool) {
     let best = &found.best;
     let of = if has_rod { "" } else { ", with stiffness and length as the recording suggests" };
-    let next = found.others.first().map_or_else(String::new, |next| format!("; next {}", agreement(next, columns)));
+    let next =
+        found.others.first().map_or_else(String::new, |next| format!("; next best {}", agreement(next, columns)));
     let Hypothesis { frame, reversed, .. } = best.hypothesis;
     let is_as_is = frame.is_as_is() && reversed == [false; 3];
     let is_load = frame.is_load() && reversed == [false; 3];
     let begin = match (best.fits(), found.is_decided) {
-        (false, _) => "no axes, signs and units agree with the physics; the best",
-        (true, false) => "the physics does not determine axes and signs: it fits",
+        (false, _) => "no axes, signs and units agree with the physics, see the questions below; the best",
+        (true, false) => "the physics does not determine axes and signs, see the questions below: it fits",
         (true, true) if is_as_is && source == Source::Sensor => LOADS,
         (true, true) if is_load && source == Source::Sensor => "the columns are reactions on the rod:",
-        (true, true) if is_as_is => "the physics confirms",
+        (true, true) if is_as_is => "the physics confirms, nothing to correct:",
         (true, true) if is_load => LOADS,
         (true, true) => "the physics prefers",
     };

@@ -1,7 +1,7 @@
 //! The options that make a reader take a table as it was understood.
 
 use crate::ReadOptions;
-use vibrissa::hw::recording::{ColumnMap, Decimal, Delimiter, Header, Role, Table, TableOptions};
+use vibrissa::hw::recording::{ColumnMap, Constant, Decimal, Delimiter, Header, Role, Table, TableOptions};
 
 /// Meanings, units and layout, for the command line and for the readers.
 #[derive(Clone, Debug, Default)]
@@ -27,6 +27,9 @@ impl Proposal {
         let mut words = Vec::new();
         for (role, name) in &self.columns {
             words.extend(["--column".to_owned(), format!("{stage}{role}={name}")]);
+        }
+        for Constant { role, value, unit } in &self.layout.constants {
+            words.extend(["--column".to_owned(), format!("{stage}{role}={value}{unit}")]);
         }
         for (name, unit) in &self.units {
             words.extend(["--unit".to_owned(), format!("{stage}{name}={unit}")]);

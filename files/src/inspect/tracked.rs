@@ -14,6 +14,9 @@ const PART: usize = 64 << 20;
 /// Least likelihood of a point that `vibrissa.tracking` takes unless told otherwise.
 const LIKELIHOOD: f64 = 0.6;
 
+/// How a scale follows from an image.
+pub(super) const RULER: &str = "METRES is a known distance in the image, as on a ruler or of the pole, in m, divided by the same distance in pixels";
+
 /// A tracker and what its file tracks.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tracked {
@@ -179,7 +182,7 @@ impl Tracked {
         });
         file.questions.push(Question {
             text: "how long is a pixel? The file does not state it".to_owned(),
-            answers: vec!["scale=METRES in the command".to_owned()],
+            answers: vec![format!("scale=METRES in the command; {RULER}")],
         });
         if self.individuals.len() > 1 {
             file.questions.push(Question {

@@ -1,4 +1,4 @@
-//! States and events as they are written: SI units, objects and pieces counted from 1, numbers that survive a round trip.
+//! States and events as they are written: SI units, everything counted from 0, numbers that survive a round trip.
 
 use serde::Serialize;
 use vibrissa::contact::Contact;
@@ -89,7 +89,7 @@ impl From<&Contact> for ContactRecord {
         let rubs = contact.friction.as_ref();
         let mode = rubs.map(|friction| friction.mode.to_string());
         let (friction, slip) = (rubs.map(|friction| friction.force), rubs.map(|friction| friction.slip));
-        Self { object: object + 1, piece: piece + 1, kind, s, x, y, alpha, force, mode, friction, slip }
+        Self { object, piece, kind, s, x, y, alpha, force, mode, friction, slip }
     }
 }
 
@@ -167,10 +167,10 @@ pub(super) const STATE_COLUMNS: [&str; 20] = [
 /// Those that follow where the rod runs through a roller.
 pub(super) const ROLLER_COLUMNS: [&str; 2] = ["roller", "roller_s"];
 
-/// A row of states.csv: the state of this number, from 1.
+/// A row of states.csv: the state of this number.
 pub(super) fn state_row((index, state): (usize, &State)) -> impl Serialize {
     let r = StateRecord::from(state);
-    let place = (index + 1, r.x0, r.y0, r.phi0, r.phase);
+    let place = (index, r.x0, r.y0, r.phi0, r.phase);
     let forces = (r.f0x, r.f0y, r.m0z);
     let checks = (r.residual, r.min_gap, r.stable);
     // two columns more where there is a roller
@@ -191,7 +191,7 @@ pub(super) fn contact_rows((index, state): (usize, &State)) -> impl Iterator<Ite
     state.contacts.iter().enumerate().map(move |(number, contact)| {
         let ContactRecord { object, piece, kind, s, x, y, alpha, force, mode, friction, slip } = contact.into();
         let vibrissa::Pose { x: x0, y: y0, phi: phi0 } = state.pose;
-        let place = (index + 1, x0, y0, phi0, state.phase().to_string());
-        (place, (number + 1, object, piece, kind), (s, x, y, alpha, force), (mode, friction, slip))
+        let place = (index, x0, y0, phi0, state.phase().to_string());
+        (place, (number, object, piece, kind), (s, x, y, alpha, force), (mode, friction, slip))
     })
 }

@@ -147,20 +147,16 @@ impl Planned {
                 .as_ref()
                 .map(|noise| Measurement::of(&noise.channels(), request.speed / request.rate, &known, length)),
         };
-        let mut candidates = candidates(rod, &known, request.scans.iter().copied(), &settings)?;
+        let goes_on = || !interrupt.is_raised();
+        let mut candidates = candidates(rod, &known, request.scans.iter().copied(), &settings, &goes_on)?;
         candidates.extend(request.paths.iter().cloned());
-        candidates.extend(straight_candidates(rod, &known, &grid, &settings)?);
+        candidates.extend(straight_candidates(rod, &known, &grid, &settings, &goes_on)?);
         let plan = plan(rod, &known, &candidates, &settings, &|done| {
             interrupt.pass(done as f64 / candidates.len() as f64);
-            !interrupt.is_raised()
+            goes_on()
         })?;
         let choices = plan.greedy(request.count, most_stress);
         Ok(Self { name: name.to_owned(), known, candidates: candidates.len(), most_stress, plan, choices })
-    }
-
-    /// Whether all candidates were judged.
-    pub fn is_complete(&self) -> bool {
-        self.plan.forecasts.len() == self.candidates
     }
 
     /// The candidates, best gain first.

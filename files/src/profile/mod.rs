@@ -31,7 +31,7 @@ pub enum ProfileError {
         least: f64,
     },
     /// An object that is not in the scene.
-    #[error("--object is {object}, expected a number from 1 to {count}: the scene has so many objects")]
+    #[error("--object is {object}, expected a number from 0 to {}: the scene has {count}", count.saturating_sub(1))]
     NoObject {
         /// Its number.
         object: usize,
@@ -66,7 +66,7 @@ pub struct ProfilePoint {
 /// The contour of one object as points, in its own direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    /// Number of the object in the scene, from 1.
+    /// Number of the object in the scene, from 0.
     pub object: usize,
     /// The points; those of a closed contour end with the first one.
     pub points: Vec<ProfilePoint>,
@@ -75,7 +75,7 @@ pub struct Profile {
 }
 
 impl Scene {
-    /// The contours of all objects, or of one (by its number, from 1), as points so close together that no chord is farther
+    /// The contours of all objects, or of one (by its number, from 0), as points so close together that no chord is farther
     /// than `tolerance` (m, by default 1e-6 of the rod's length) from the contour.
     ///
     /// A piece that goes on for ever ends 1.5 lengths of the rod from the clamp's path. At a corner or notch two points
@@ -91,19 +91,19 @@ impl Scene {
             return Err(ProfileError::Tolerance { tolerance, least });
         }
         let count = self.objects.len();
-        if let Some(object) = object.filter(|object| !(1..=count).contains(object)) {
+        if let Some(object) = object.filter(|object| *object >= count) {
             return Err(ProfileError::NoObject { object, count });
         }
         let reach = Reach::new(self.poses(), length);
         let mut profiles: Vec<Profile> = Vec::new();
         for (index, contour) in self.objects.iter().enumerate() {
-            if object.is_some_and(|object| object != index + 1) {
+            if object.is_some_and(|object| object != index) {
                 continue;
             }
             let room = MOST - profiles.iter().map(|profile| profile.points.len()).sum::<usize>();
             let mut tracer = Tracer::new(contour, tolerance, length, room);
             tracer.run(&reach).ok_or(ProfileError::TooMany { tolerance })?;
-            profiles.push(Profile { object: index + 1, points: tracer.points, joints: tracer.joints });
+            profiles.push(Profile { object: index, points: tracer.points, joints: tracer.joints });
         }
         Ok(profiles)
     }

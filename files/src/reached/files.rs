@@ -62,7 +62,7 @@ impl Reached {
         staged.write("outline.csv".as_ref(), |file| {
             let row = |part: OutlinePart| {
                 let OutlinePart { object, from, to, touch, ends: [[x, y], [x_to, y_to]] } = part;
-                (object + 1, from, to, touch.to_string(), x, y, x_to, y_to)
+                (object, from, to, touch.to_string(), x, y, x_to, y_to)
             };
             write_csv(file, &OUTLINE, self.outline_parts().into_iter().map(row))
         })?;

@@ -135,7 +135,7 @@ impl Reached {
     }
 
     /// Whether all scans were made.
-    pub fn is_complete(&self) -> bool {
+    fn is_complete(&self) -> bool {
         self.found.scans.len() == 2 * self.grid.distances.len() * self.grid.angles.len()
     }
 

@@ -62,15 +62,16 @@ impl Reconstructed {
     /// Where the contour of the fit has several contacts though each sample alone was answered by one: a contact that passes fast along a flank looks
     /// like two.
     fn several_in_doubt(&self) -> Option<String> {
-        let count: usize = self.several_for_one.iter().map(Range::len).sum();
+        let count: usize = self.several_only_in_fit.iter().map(Range::len).sum();
         let in_contact = self.found.readings.iter().filter(|reading| reading.label != Label::Free).count();
         if (count as f64) < DOUBTED * in_contact as f64 {
             return None;
         }
-        let [from, to] = self.rows_of(self.several_for_one.iter().max_by_key(|run| run.len())?);
+        let [from, to] = self.rows_of(self.several_only_in_fit.iter().max_by_key(|run| run.len())?);
         Some(format!(
-            "the fit has several contacts in {count} samples, for example in rows {from} to {to}, where each sample alone has one: a contact that \
-             moves fast along a flank resembles two at its ends; if the object is convex, the points there are wrong"
+            "several contacts only in the fit: in {count} samples, for example in rows {from} to {to}, the fitted contour has several contacts where \
+             each sample alone has one; a contact that moves fast along a flank resembles two at its ends: if the object is convex, the points \
+             there are wrong"
         ))
     }
 
@@ -152,7 +153,7 @@ fn tell_shapes(shapes: &[SimpleShape], text: &mut String) -> std::fmt::Result {
             _ => format!("{name} {:.4} +- {:.1e} mm", 1e3 * value, 1e3 * sigma),
         };
         let numbers: Vec<String> = best.parameters.iter().map(number).collect();
-        let [object, first, last] = [best.object + 1, best.points.start + 1, best.points.end];
+        let [object, first, last] = [best.object, best.points.start, best.points.end.saturating_sub(1)];
         write!(text, "shape of object {object}, points {first} to {last}: {}, {}", best.kind, numbers.join(", "))?;
         let others: Vec<String> = others.iter().map(|other| other.kind.to_string()).collect();
         if others.is_empty() { writeln!(text)? } else { writeln!(text, "; or: {}", others.join(", "))? }
@@ -166,7 +167,7 @@ pub(super) const FITTED_COLUMNS: [&str; 7] = ["object", "x", "y", "known", "sigm
 /// A point of the contour of a fit.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct FittedPoint {
-    /// Number of the object, from 1.
+    /// Number of the object, from 0.
     pub object: usize,
     /// Position, m.
     pub x: f64,
@@ -187,7 +188,7 @@ impl FittedPoint {
     pub fn all(objects: &[FittedObject]) -> impl Iterator<Item = Self> {
         objects.iter().enumerate().flat_map(|(object, fitted)| {
             let point = move |k: usize| Self {
-                object: object + 1,
+                object,
                 x: fitted.points[k][0],
                 y: fitted.points[k][1],
                 known: match fitted.known[k] {
@@ -224,7 +225,7 @@ pub(super) struct FitRecord {
     farthest_error: Option<FarthestErrorRecord>,
     worst: Option<WorstRecord>,
     /// First and last rows of several contacts where each row alone was answered by one.
-    several_for_one: Vec<[usize; 2]>,
+    several_only_in_fit: Vec<[usize; 2]>,
     runs: Vec<FittedRunRecord>,
     shapes: Vec<ShapeRecord>,
     errors: Vec<FittedErrorRecord>,
@@ -259,9 +260,9 @@ struct FittedRunRecord {
 /// A simple shape that explains an object as well as the free contour does.
 #[derive(Serialize)]
 struct ShapeRecord {
-    /// Number of the object, from 1.
+    /// Number of the object, from 0.
     object: usize,
-    /// The first and the last point of the object of which it tells, from 1.
+    /// The first and the last point of the object of which it tells, from 0.
     points: [usize; 2],
     shape: ShapeKind,
     parameters: Vec<ParameterRecord>,
@@ -286,8 +287,8 @@ impl ShapeRecord {
             sigma: *sigma,
         };
         Self {
-            object: object + 1,
-            points: [points.start + 1, points.end],
+            object: *object,
+            points: [points.start, points.end.saturating_sub(1)],
             shape: *kind,
             parameters: parameters.iter().map(parameter).collect(),
             chi_squared: *chi_squared,
@@ -334,7 +335,7 @@ impl FitRecord {
                 residuals: worst.residuals,
                 p_value: worst.p_value,
             }),
-            several_for_one: found.several_for_one.iter().map(|run| found.rows_of(run)).collect(),
+            several_only_in_fit: found.several_only_in_fit.iter().map(|run| found.rows_of(run)).collect(),
             runs: fit.runs().into_iter().map(run).collect(),
             shapes: fit.shapes.iter().map(ShapeRecord::of).collect(),
             errors: fit

@@ -52,7 +52,7 @@ pub struct Reconstructed {
     /// The contour that explains the whole recording best, or why there is none; none where it was not looked for.
     pub fit: Option<Result<ContourFit, FitError>>,
     /// Runs of samples with several contacts of that contour in which each sample alone was answered by one.
-    pub several_for_one: Vec<Range<usize>>,
+    pub several_only_in_fit: Vec<Range<usize>>,
     /// The comparison with the truth, where that is known.
     pub comparison: Option<Comparison>,
 }
@@ -89,7 +89,7 @@ impl Reconstructed {
             check,
             explanations,
             fit: None,
-            several_for_one: Vec::new(),
+            several_only_in_fit: Vec::new(),
             comparison: None,
         })
     }
@@ -119,11 +119,11 @@ impl Reconstructed {
             let is_one = |label: Label| !label.several() && label != Label::Free;
             let after = self.found.readings.iter().map(|reading| reading.label);
             let several = before.into_iter().zip(after).enumerate();
-            self.several_for_one.clear();
+            self.several_only_in_fit.clear();
             for (k, _) in several.filter(|(_, (before, after))| is_one(*before) && after.several()) {
-                match self.several_for_one.last_mut().filter(|run| run.end == k) {
+                match self.several_only_in_fit.last_mut().filter(|run| run.end == k) {
                     Some(run) => run.end = k + 1,
-                    None => self.several_for_one.push(k..k + 1),
+                    None => self.several_only_in_fit.push(k..k + 1),
                 }
             }
             self.contour = self.found.contour(&Assembly::default());

@@ -39,8 +39,8 @@ impl Reconstructed {
             writeln!(text, "{missing}")?;
         }
         self.tell_friction(text)?;
-        self.tell_calibration(text)?;
         self.tell_physics(text)?;
+        self.tell_calibration(text)?;
         self.tell_fit(text)?;
         text.push_str(&self.run_table().to_string());
         match &self.comparison {
@@ -112,15 +112,20 @@ impl Reconstructed {
     fn tell_physics(&self, text: &mut String) -> std::fmt::Result {
         if let Some(line) = &self.check.line {
             let stiffness = self.rod.at_clamp().bending_stiffness();
+            let verdict = if self.fits() {
+                "the reactions fit the rod, nothing to do"
+            } else {
+                "the reactions do not fit the rod, see the next lines for the cause"
+            };
             writeln!(
                 text,
-                "physics: m0z^2 = {:.4e} +- {:.1e} N^2 m^2 + 2 ({:.4} +- {:.4}) EI (f0y sin phi0 + f0x cos phi0) in {:.0} % \
-                 of the scan in contact; expected 0 and 1",
+                "physics: {verdict}; where the rod touches along its side ({:.0} % of the scan in contact), m0z^2 = a + 2 b EI (f0y sin phi0 + f0x cos \
+                 phi0) with a = {:.1e} +- {:.1e} N^2 m^2, expected 0, and b = {:.4} +- {:.4}, expected 1",
+                100.0 * line.share,
                 line.intercept,
                 line.intercept_sigma,
                 line.slope / stiffness,
-                line.slope_sigma / stiffness,
-                100.0 * line.share
+                line.slope_sigma / stiffness
             )?;
         }
         self.findings().try_for_each(|finding| writeln!(text, "physics: {finding}"))?;
@@ -173,7 +178,7 @@ impl Comparison {
             ("one contact", &self.single),
             ("first of several", &self.first),
             ("second of several", &self.second),
-            ("several taken for one", &self.naive),
+            ("naive: one contact assumed", &self.naive),
         ] {
             let Some(Deviation { count, median, percentile_95, largest, .. }) = deviation else { continue };
             let mm = [median, percentile_95, largest].map(|distance| format!("{:.2e}", 1e3 * distance));

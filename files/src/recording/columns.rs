@@ -13,6 +13,9 @@ const PART: &str = "; `vibrissa forces` takes a part of the reactions";
 /// What else to do where there are no poses.
 const STAGE: &str = "; for raw values or wrenches, --stage gives the poses";
 
+/// What else to do where the clamp has not all coordinates.
+const CONSTANT: &str = "; for an x0, y0 or phi0 that stays the same, the option --column phi0=90deg gives its value";
+
 pub(super) const POSE: [Role; 3] = [Role::X0, Role::Y0, Role::Phi0];
 pub(super) const REACTIONS: [Role; 3] = [Role::F0x, Role::F0y, Role::M0z];
 pub(super) const SIGMAS: [Role; 3] = [Role::SigmaF0x, Role::SigmaF0y, Role::SigmaM0z];
@@ -26,6 +29,7 @@ pub(super) fn find(file: &Path, table: &Table, map: &ColumnMap) -> Result<Column
             // raw values and wrenches have no poses at all
             hint: match POSE.iter().filter(|role| missing.contains(role)).count() {
                 3 => hint + STAGE,
+                1 | 2 => hint + CONSTANT,
                 0 if !REACTIONS.iter().all(|role| missing.contains(role)) => hint + PART,
                 _ => hint,
             },

@@ -2,14 +2,15 @@
 //!
 //! `ticks` is the sensor's samples one after the other, `speed` how a speed is written; here is what a recording is of, and how it is written.
 
+mod argument;
 mod speed;
 mod ticks;
 
+pub use argument::SimulationArgument;
 pub use speed::Speed;
 pub use ticks::{Tick, Ticks};
 
 use crate::output::csv_writer;
-use crate::scene::MOST_STATES;
 use crate::{Interrupt, Interrupted, OutputError, Scene, Staged};
 use std::io::{self, Write};
 use std::path::Path;
@@ -61,50 +62,9 @@ pub struct Simulated {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulationError {
-    /// A rate or speed that is none.
-    #[error("{what} is {value}, expected a positive, finite number of {unit}")]
-    NotPositive {
-        /// Which one.
-        what: &'static str,
-        /// Its value as given.
-        value: f64,
-        /// Its unit.
-        unit: &'static str,
-    },
-    /// A speed in the unit of another motion.
-    #[error("--speed is {speed}, expected {expected}")]
-    SpeedUnit {
-        /// The speed as written.
-        speed: String,
-        /// What is expected, and why.
-        expected: &'static str,
-    },
-    /// More samples than a sweep may report.
-    #[error(
-        "--rate {rate} Hz at --speed {speed} {unit}/s asks for {samples:.1e} samples on a path of {length:.6} {unit}, \
-         expected at most {MOST_STATES:e}; lower the rate, raise the speed or cut the path"
-    )]
-    TooMany {
-        /// Samples in a second.
-        rate: f64,
-        /// Speed of the clamp.
-        speed: f64,
-        /// How many samples these are.
-        samples: f64,
-        /// Length of the path.
-        length: f64,
-        /// Its unit.
-        unit: &'static str,
-    },
-    /// A channel has no noise whose standard deviation could be written.
-    #[error(
-        "--sigmas: the noise model gives {channel} no standard deviation, expected white or AR(1) noise or a quantum in every \
-         channel where standard deviations are to be written"
-    )]
-    NoSigma {
-        /// Which one.
-        channel: &'static str,
-    },
+    /// An argument is not possible.
+    #[error(transparent)]
+    Argument(#[from] SimulationArgument),
     /// The noise model is not possible.
     #[error(transparent)]
     Noise(#[from] NoiseError),
@@ -114,13 +74,6 @@ pub enum SimulationError {
     /// The recording cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
-}
-
-impl SimulationError {
-    /// Whether the value of an option is wrong.
-    pub fn is_of_options(&self) -> bool {
-        !matches!(self, Self::Noise(_) | Self::Contact(_) | Self::Output(_))
-    }
 }
 
 impl Simulation {
@@ -176,7 +129,7 @@ impl Simulation {
         let sigma = self.noise.sigma();
         let channels = [("f0x", sigma.f0x), ("f0y", sigma.f0y), ("m0z", sigma.m0z)];
         match channels.into_iter().find(|(_, sigma)| *sigma <= 0.0) {
-            Some((channel, _)) => Err(SimulationError::NoSigma { channel }),
+            Some((channel, _)) => Err(SimulationArgument::NoSigma { channel }.into()),
             None => Ok(sigma),
         }
     }

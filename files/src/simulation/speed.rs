@@ -1,6 +1,6 @@
 //! The speed of a clamp, as it is written.
 
-use super::SimulationError;
+use super::SimulationArgument;
 use crate::Scene;
 use std::fmt;
 use std::str::FromStr;
@@ -25,8 +25,8 @@ impl Speed {
     /// In m/s, or rad/s where the clamp of the scene only turns.
     ///
     /// # Errors
-    /// [`SimulationError::SpeedUnit`] where the unit is of the other motion.
-    pub fn of(&self, scene: &Scene) -> Result<f64, SimulationError> {
+    /// [`SimulationArgument::SpeedUnit`] where the unit is of the other motion.
+    pub fn of(&self, scene: &Scene) -> Result<f64, SimulationArgument> {
         self.where_it(scene.turns_only())
     }
 
@@ -34,18 +34,18 @@ impl Speed {
     ///
     /// # Errors
     /// As [`of`](Self::of).
-    pub fn where_it_moves(&self) -> Result<f64, SimulationError> {
+    pub fn where_it_moves(&self) -> Result<f64, SimulationArgument> {
         self.where_it(false)
     }
 
-    fn where_it(&self, turns: bool) -> Result<f64, SimulationError> {
+    fn where_it(&self, turns: bool) -> Result<f64, SimulationArgument> {
         let Some(unit) = self.unit else { return Ok(self.number) };
         if (unit.dimension == Dimension::Angle) == turns {
             return Ok(self.number * unit.factor);
         }
         let expected =
             if turns { "an angle per second: the clamp only turns" } else { "a length per second: the clamp moves" };
-        Err(SimulationError::SpeedUnit { speed: self.to_string(), expected })
+        Err(SimulationArgument::SpeedUnit { speed: self.to_string(), expected })
     }
 }
 

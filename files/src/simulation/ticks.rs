@@ -1,6 +1,6 @@
 //! The samples of a simulated recording, one after the other.
 
-use super::{Simulation, SimulationError};
+use super::{Simulation, SimulationArgument, SimulationError};
 use crate::scene::{LegPath, MOST_STATES, RodOnPath};
 use vibrissa::contact::{Item, RollerContact, Stop};
 use vibrissa::reconstruct::{Dropout, NoiseGenerator, NoiseModel};
@@ -82,9 +82,9 @@ impl Simulation {
 fn steps(swept: &RodOnPath<'_>, rate: f64, speed: f64) -> Result<(Vec<f64>, f64), SimulationError> {
     let turns_only = swept.turns_only();
     let [unit, per_second] = if turns_only { ["rad", "rad/s"] } else { ["m", "m/s"] };
-    for (what, value, unit) in [("--rate", rate, "Hz"), ("--speed", speed, per_second)] {
+    for (what, value, unit) in [("rate", rate, "Hz"), ("speed", speed, per_second)] {
         if !(value.is_finite() && value > 0.0) {
-            return Err(SimulationError::NotPositive { what, value, unit });
+            return Err(SimulationArgument::NotPositive { what, value, unit }.into());
         }
     }
     let step = speed / rate;
@@ -101,7 +101,7 @@ fn steps(swept: &RodOnPath<'_>, rate: f64, speed: f64) -> Result<(Vec<f64>, f64)
         let steps = if let [_] = legs[..] { vec![step] } else { legs.iter().map(whole).collect() };
         Ok((steps, samples))
     } else {
-        Err(SimulationError::TooMany { rate, speed, samples, length, unit })
+        Err(SimulationArgument::TooMany { rate, speed, samples, length, unit }.into())
     }
 }
 

@@ -10,7 +10,7 @@ pub mod tdms;
 
 #[cfg(feature = "recordings")]
 pub use tables::{
-    Basis, Cell, Column, ColumnGuess, ColumnMap, ColumnSummary, Columns, Contents, Decimal, Delimiter, FileFormat,
-    Header, Outline, Part, Quantity, Recorded, Recorder, Role, Row, RowFault, RowProblem, Sureness, Table, TableError,
-    TableGuess, TableKind, TableOptions, TableProblem, guess,
+    Basis, Cell, Column, ColumnGuess, ColumnMap, ColumnSummary, Columns, Constant, Contents, Decimal, Delimiter,
+    FileFormat, Header, Outline, Part, Quantity, Recorded, Recorder, Role, Row, RowFault, RowProblem, Sureness, Table,
+    TableError, TableGuess, TableKind, TableOptions, TableProblem, guess,
 };

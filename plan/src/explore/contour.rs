@@ -28,7 +28,7 @@ pub(super) fn best_scan(
         ReachGrid { distances: settings.distances.clone(), angles: settings.angles.clone(), ..ReachGrid::of(rod) };
     let plan_settings = plan_settings(rod, settings, known);
     let Some((chains, hypotheses)) = drawn(rod, &plan_settings, known, space)? else { return Ok(None) };
-    let candidates = candidates_of(&hypotheses, grid.scans(), rod.length())?;
+    let candidates = candidates_of(&hypotheses, grid.scans(), rod.length(), &|| true)?;
     let is_safe = |path: ClampPath| space.allows(path) && is_allowed(path);
     let safe: Vec<Candidate> =
         candidates.into_iter().filter(|candidate| candidate.path.straight().is_some_and(is_safe)).collect();

@@ -367,7 +367,7 @@ def notches(
     ax = ax or _new_axes(window)
     clouds: list[tuple[Any, Any, str, dict[str, Any]]] = [
         (rows["x"][~two], rows["y"][~two], "one contact", {"color": FAINT}),
-        (naive["x"], naive["y"], "two taken for one", {"markerfacecolor": "none", "color": MUTED}),
+        (naive["x"], naive["y"], "naive: one contact assumed", {"markerfacecolor": "none", "color": MUTED}),
         (rows["x"][first], rows["y"][first], _KINDS["first"][1], {"color": _KINDS["first"][0]}),
         (rows["second_x"][second], rows["second_y"][second], _KINDS["second"][1], {"color": _KINDS["second"][0]}),
     ]

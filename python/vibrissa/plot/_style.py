@@ -80,8 +80,12 @@ def legend(ax: Axes) -> None:
     handles, labels = ax.get_legend_handles_labels()
     figure = ax.get_figure(root=True)
     if handles and figure is not None:
-        columns = int(figure.get_size_inches()[0])
-        drawn = figure.legend(handles, labels, loc="outside upper left", ncols=columns, frameon=False, prop=small(ax), handlelength=1.8)
+        # as many columns as there is room for
+        for columns in range(int(figure.get_size_inches()[0]), 0, -1):
+            drawn = figure.legend(handles, labels, loc="outside upper left", ncols=columns, frameon=False, prop=small(ax), handlelength=1.8)
+            if columns == 1 or drawn.get_window_extent().width <= figure.bbox.width:
+                break
+            drawn.remove()
         # colours of thin lines are hard to see
         for line in drawn.get_lines():
             line.set_linewidth(max(line.get_linewidth(), LINE))

@@ -219,7 +219,9 @@ fn setup_name(options: &InspectOptions) -> String {
 }
 
 fn combined(sensor: &Proposal, stage: Option<&Proposal>) -> ReadOptions {
-    let stage = stage.filter(|stage| !stage.columns.is_empty() || !stage.units.is_empty());
+    let says =
+        |stage: &&Proposal| !(stage.columns.is_empty() && stage.units.is_empty() && stage.layout.constants.is_empty());
+    let stage = stage.filter(says);
     ReadOptions { stage: stage.map(|stage| Box::new(stage.read())), ..sensor.read() }
 }
 

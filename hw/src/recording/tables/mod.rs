@@ -34,7 +34,7 @@ pub use error::{TableError, TableProblem};
 pub use fault::{RowFault, RowProblem};
 pub use guess::{Basis, ColumnGuess, ColumnSummary, Quantity, Sureness, TableGuess, TableKind, guess};
 pub use heading::Column;
-pub use options::{Decimal, Delimiter, Header, TableOptions};
+pub use options::{Constant, Decimal, Delimiter, Header, TableOptions};
 pub use outline::{FileFormat, Outline, Part};
 pub use recorded::Recorded;
 pub use recorder::{Contents, Recorder};

@@ -65,6 +65,7 @@ impl Table {
         for table in &mut tables {
             table.cut = !bytes.ends_with(b"\n") && !bytes.ends_with(b"\r");
             table.take_dates();
+            table.take_constants(&options.constants);
             table.take_units(&options.units)?;
         }
         Ok(tables)

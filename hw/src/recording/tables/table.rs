@@ -4,7 +4,7 @@ use super::date;
 use super::fault::{RowFault, RowProblem};
 use super::heading::Column;
 use super::number::number;
-use super::options::Decimal;
+use super::options::{Constant, Decimal};
 use super::split::{Splitter, comment};
 use std::sync::Arc;
 
@@ -35,6 +35,8 @@ pub struct Table {
     heads: Vec<Head>,
     cells: Vec<Stored>,
     texts: Vec<Box<str>>,
+    /// The last columns, which the file lacks.
+    constants: Vec<f64>,
     /// Which columns have dates or times of day, read in s.
     dated: Vec<bool>,
     pub(super) cut: bool,
@@ -104,6 +106,7 @@ impl Table {
             heads: Vec::new(),
             cells: Vec::new(),
             texts: Vec::new(),
+            constants: Vec::new(),
             dated: Vec::new(),
             cut: false,
         }
@@ -249,6 +252,19 @@ impl Table {
         }
     }
 
+    /// Appends columns that stay the same. No row is added after that.
+    pub(super) fn take_constants(&mut self, constants: &[Constant]) {
+        for Constant { role, value, unit } in constants {
+            self.columns.push(Column::new(&format!("{role} [{unit}]")));
+            self.constants.push(*value);
+        }
+    }
+
+    /// How many columns the file has.
+    fn width(&self) -> usize {
+        self.columns.len() - self.constants.len()
+    }
+
     /// Puts a number into all rows, from the first.
     pub(super) fn fill(&mut self, column: usize, value: impl Fn(usize) -> f64) {
         for (k, head) in self.heads.iter().enumerate() {
@@ -267,7 +283,11 @@ impl<'t> Row<'t> {
 
     /// The cell in a column; empty in a row of a wrong number of cells, and beyond the columns.
     pub fn cell(&self, column: usize) -> Cell<'t> {
-        let place = self.head.start.filter(|_| column < self.table.columns.len()).map(|start| start + column);
+        let width = self.table.width();
+        if let Some(value) = column.checked_sub(width).and_then(|constant| self.table.constants.get(constant)) {
+            return if self.head.start.is_some() { Cell::Number(*value) } else { Cell::Empty };
+        }
+        let place = self.head.start.filter(|_| column < width).map(|start| start + column);
         match place.and_then(|place| self.table.cells.get(place)) {
             Some(Stored::Number(value)) => Cell::Number(*value),
             Some(Stored::Text(i)) => Cell::Text(self.table.texts.get(*i as usize).map_or("", |text| text)),
@@ -284,7 +304,7 @@ impl<'t> Row<'t> {
             Some(_) => Ok(()),
             None => {
                 let last = self.table.heads.last().is_some_and(|last| last.line == self.head.line);
-                let (found, expected) = (self.head.found as usize, self.table.columns.len());
+                let (found, expected) = (self.head.found as usize, self.table.width());
                 Err(RowProblem::Cells { found, expected, cut: last && self.table.cut })
             }
         }
