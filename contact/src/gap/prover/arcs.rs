@@ -300,3 +300,42 @@ impl<M: RodModel> Search<'_, M> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use rod_core::Uniform;
+    use std::f64::consts::PI;
+
+    proptest! {
+        #[test]
+        fn an_arc_does_not_fall_below_the_height_of_its_triangle(
+            (phi, kappa, a, b) in (-3.2..3.2f64, -4.0..4.0f64, -20.0..20.0f64, -20.0..20.0f64),
+            length in 1e-3..1.0f64,
+            (x, y, turn) in (-0.5..0.5f64, -0.5..0.5f64, -3.2..3.2f64),
+        ) {
+            let segment = Segment { s: 0.0, start: Cut { x: 0.0, y: 0.0, phi, moment: kappa }, a, b };
+            let place = |s: f64| Place::new(s, rod::at(&Uniform, &segment, s), None);
+            let ends = [place(0.0), place(length)];
+            let bend = Uniform.one_bend((0.0, kappa), (length, ends[1].cut.moment), a.hypot(b));
+            prop_assume!(bend.is_some());
+            let arc = Arc::new(&ends, bend.unwrap());
+            prop_assume!(arc.is_some());
+            let arc = arc.unwrap();
+            let line = |at: (f64, f64), turn: f64| Line { at, normal: (turn.cos(), turn.sin()), outward: true };
+            // any line, and the tangents at both ends, on the side of the arc
+            let tangent = |Place { cut, .. }: &Place| line((cut.x, cut.y), cut.phi + PI / 2.0_f64.copysign(bend.unwrap()));
+            let lines = [line((x, y), turn), tangent(&ends[0]), tangent(&ends[1])];
+            for (number, line) in lines.iter().enumerate() {
+                let least = arc.least_height(&ends, line);
+                prop_assert!(number == 0 || least > -1e-11, "{number}: {least}");
+                for k in 0..=64 {
+                    let Cut { x, y, .. } = place(length * f64::from(k) / 64.0).cut;
+                    let height = (x - line.at.0) * line.normal.0 + (y - line.at.1) * line.normal.1;
+                    prop_assert!(height >= least - 1e-13, "{number} {k}: {height} {least}");
+                }
+            }
+        }
+    }
+}
