@@ -16,13 +16,13 @@ use measure::{kernel, segments, verdict};
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::hint::black_box;
 use std::process::{Command, ExitCode};
 use vibrissa::contact::Derivatives;
 use vibrissa::reconstruct::{Ar1, Budget, Friction, NoiseModel, single};
 use vibrissa::rod::{
-    AnyRod, Cone, Cut, NewtonWorkspace, Reactions, RodModel, RodSection, Sections, Smooth, advance,
+    AnyRod, Cone, Cut, NewtonWorkspace, Reactions, RodModel, RodSection, Sections, Smooth, VaryingRod, advance,
     advance_with_sensitivities, walk,
 };
 use vibrissa::{ClampPath, Composite, Pose, Rod, Sample, Settings, State, Sweep, equilibrium, reconstruct};
@@ -225,6 +225,23 @@ fn works() -> Vec<Work> {
         }
         times
     }));
+    // from where all these rods are free
+    let of_rod = |rod: VaryingRod| {
+        move |times: usize| {
+            let (contour, path) = (OBJECTS[0].contour(), path(0.4, 0.9, -0.9));
+            let step = path.length() / 999.0;
+            for _ in 0..times {
+                let outcome = Sweep::new(&rod, black_box(&contour), path, step).unwrap().run();
+                assert!(black_box(outcome).stop.is_none());
+            }
+            times
+        }
+    };
+    let bent = rod().with_natural_curvature(0.5).unwrap();
+    works.push(Work::new("scan of 1000 states with a rod that is bent at rest", [1, 2], of_rod(bent)));
+    let diameter = 0.01_f64;
+    let cone = Rod::tapered(1.0, diameter, 0.5 * diameter, 64.0 / (PI * diameter.powi(4))).unwrap();
+    works.push(Work::new("scan of 1000 states with a cone", [1, 2], of_rod(cone)));
     let rubbing = |states: usize| {
         move |times: usize| {
             let contour = OBJECTS[0].contour();

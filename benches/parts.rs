@@ -18,7 +18,7 @@ use vibrissa::{ClampPath, Rod, State, Sweep};
 /// Parts of a state, and the end of the name of the function that does each of them.
 const PARTS: [(&str, &str); 6] = [
     ("solve", "Corrector<R>::solve"),
-    ("gap proof", "Scanner::scan"),
+    ("gap proof", "Scanner::scan_between"),
     ("transitions looked for", "::keeps_contacts"),
     ("stability", "::keeps_stability"),
     ("report", "certify::state"),

@@ -240,6 +240,10 @@ impl RodModel for AnyRod {
         ask!(self, model => model.curvature_bounds(from, to, force))
     }
     #[inline(always)]
+    fn one_bend(&self, from: (f64, f64), to: (f64, f64), force: f64) -> Option<f64> {
+        ask!(self, model => model.one_bend(from, to, force))
+    }
+    #[inline(always)]
     fn least_stiffness(&self, from: f64, to: f64) -> f64 {
         ask!(self, model => model.least_stiffness(from, to))
     }

@@ -49,7 +49,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
             return None;
         }
         here.set_tau(tau);
-        let scan = self.scan(&here);
+        let scan = self.scanner.scan_between(&self.corrector.setup, &here);
         let stable = self.keeps_contacts(&here, &scan) && self.keeps_stability(from, &here, &scan);
         let quality = if here.count() == 0 { Quality::FREE } else { Quality::new(&report, true) };
         let state = stable.then(|| state(&self.corrector.setup, &here, &scan, quality));

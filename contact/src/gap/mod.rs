@@ -113,6 +113,23 @@ impl Scanner {
         self.scan_shape(shape, setup, configuration, GAP_TOLERANCE)
     }
 
+    /// Looks at the rod in a `configuration` between both ends of a step: without points of the rod, if its arcs prove the gap.
+    #[inline(never)]
+    pub fn scan_between<R: PhysicalRod>(&mut self, setup: &Setup<'_, R>, configuration: &Configuration) -> Scan {
+        let (rod, world) = (setup.rod.model(), &setup.world);
+        let shape = Shape::bare(std::mem::take(&mut self.memory), setup, configuration);
+        match self.prover.prove_by_arcs(rod, world, configuration, &shape) {
+            None => self.scan_shape(shape.with_points(rod), setup, configuration, GAP_TOLERANCE),
+            Some(lower) => Scan {
+                shape,
+                gap: GapBounds { lower: lower.min(0.0), seen: 0.0, proven: world.is_proven() },
+                crossings: SmallVec::new(),
+                clamp_inside: false,
+                sides: SmallVec::new(),
+            },
+        }
+    }
+
     /// Keeps the memory of a scan that has been of use, for the next one.
     pub fn recycle(&mut self, scan: Scan) {
         self.memory = scan.shape.nodes;

@@ -110,6 +110,11 @@ impl Lines {
         })
     }
 
+    /// The first line that `clears` something.
+    pub fn find(&mut self, mut clears: impl FnMut(&Line) -> bool) -> Option<Line> {
+        self.try_each(|line| clears(line).then_some(*line))
+    }
+
     fn try_each<T>(&mut self, mut try_one: impl FnMut(&Line) -> Option<T>) -> Option<T> {
         let (count, first) = (self.lines.len(), self.last);
         (0..count).map(|k| (first + k) % count).find_map(|k| {

@@ -78,10 +78,21 @@ impl Shape {
 
     /// The shape of the rod in `configuration`, in the memory of the points of another one.
     pub fn of<R: PhysicalRod>(memory: Vec<Node>, setup: &Setup<'_, R>, configuration: &Configuration) -> Self {
-        let rod = setup.rod.model();
+        Self::bare(memory, setup, configuration).with_points(setup.rod.model())
+    }
+
+    /// The same without points, whose memory it keeps.
+    pub fn bare<R: PhysicalRod>(mut memory: Vec<Node>, setup: &Setup<'_, R>, configuration: &Configuration) -> Self {
+        memory.clear();
         let segments = configuration.segments(setup);
         let lead = lead(&segments, configuration.count());
-        Self::through(memory, rod, segments, lead, |from, to, force, _| {
+        let forces = forces(&segments);
+        Self { segments, nodes: memory, firsts: SmallVec::new(), forces, lead }
+    }
+
+    /// The same with points.
+    pub fn with_points(self, rod: &impl RodModel) -> Self {
+        Self::through(self.nodes, rod, self.segments, self.lead, |from, to, force, _| {
             (((to - from) / spacing(rod, (from, to), force, SPACING)).ceil() as usize).max(1)
         })
     }
@@ -107,8 +118,7 @@ impl Shape {
     ) -> Self {
         nodes.clear();
         let mut firsts = SmallVec::new();
-        let forces: SmallVec<[f64; USUAL_SEGMENTS]> =
-            segments.iter().map(|segment| segment.a.hypot(segment.b)).collect();
+        let forces = forces(&segments);
         let loaded = segments.last().map_or(0.0, |free| free.s);
         for (i, segment) in segments.iter().enumerate() {
             let next = segments.get(i + 1);
@@ -178,6 +188,11 @@ impl Shape {
         let after = self.firsts.get(i + 1).map_or(self.nodes.len(), |next| next + 1);
         &self.nodes[self.firsts[i]..after]
     }
+}
+
+/// Size of the force on each segment.
+fn forces(segments: &[Segment]) -> SmallVec<[f64; USUAL_SEGMENTS]> {
+    segments.iter().map(|segment| segment.a.hypot(segment.b)).collect()
 }
 
 /// Finds how far the rod leaves the chords between its points.

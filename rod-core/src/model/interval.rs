@@ -2,6 +2,7 @@
 //! joints that an interval passes; bounds of moment and curvature within it.
 
 use crate::model::Cut;
+use core::f64::consts::PI;
 
 /// Derivatives of the cut at the end of an interval, each as (x, y, phi, moment). Position moves along with that of the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,6 +138,53 @@ pub(crate) fn largest_curvature([m0, m1]: [f64; 2], force: f64, length: f64, com
 pub(crate) fn moment_range([m0, m1]: [f64; 2], force: f64, length: f64, bent: f64) -> Range {
     let slack = (0.5 * force * length).min(0.125 * force * bent * length * length);
     (m0.min(m1) - slack, m0.max(m1) + slack)
+}
+
+/// The sign that the moment has all along a `length` at whose ends it has these values, under a force of size `force` per unit of the least
+/// stiffness, for a rod that is straight at rest. None where it is not proven.
+///
+/// m'' = -q m with q = (A sin phi - B cos phi) / EI: by Sturm's comparison theorem two zeros of m are at least pi / sqrt(force) apart, so that
+/// on a shorter length there is one at most, where m changes its sign. So has the curvature of a part whose stiffness and natural curvature are
+/// constant: it is proportional to the moment of a straight rod under the same force.
+#[inline(always)]
+pub(crate) fn sign_between([m0, m1]: [f64; 2], force: f64, length: f64) -> Option<f64> {
+    let both = m0 + m1;
+    let keeps = m0 * m1 >= 0.0 && force * length * length < PI * PI;
+    keeps.then(|| if both == 0.0 { 0.0 } else { both.signum() })
+}
+
+/// Cells in which [`sign_by_cells`] bounds the compliance. More cost more, fewer overestimate a compliance that grows.
+const CELLS: usize = 8;
+
+/// [`sign_between`] for a rod whose largest compliance between two distances from the start is given. Two zeros of the solution of m'' = -q m at the
+/// distances 0 and l need an integral of max(q, 0) x (l - x) / l over x of more than 1 (Hartman and Wintner 1951), so that a rod may be soft
+/// next to the ends.
+pub(crate) fn sign_by_cells(
+    [m0, m1]: [f64; 2],
+    force: f64,
+    length: f64,
+    compliance: impl Fn(f64, f64) -> f64,
+) -> Option<f64> {
+    if m0 * m1 < 0.0 || force * length * length > 6.0 * CELLS as f64 {
+        return None;
+    }
+    let cell = length / CELLS as f64;
+    let integral: f64 = (0..CELLS)
+        .map(|k| {
+            let (from, to) = (cell * k as f64, cell * (k + 1) as f64);
+            // int x (l - x) / l, of the primitive x^2 / 2 - x^3 / 3 l
+            let weight = |x: f64| x * x * (0.5 - x / (3.0 * length));
+            compliance(from, to) * (weight(to) - weight(from))
+        })
+        .sum();
+    let both = m0 + m1;
+    (force * integral < 1.0).then(|| if both == 0.0 { 0.0 } else { both.signum() })
+}
+
+/// The sign of all numbers of a range; none where it holds both.
+#[inline(always)]
+pub(crate) fn sign_of_range((least, largest): Range) -> Option<f64> {
+    if least >= 0.0 { Some(f64::from(u8::from(largest > 0.0))) } else { (largest <= 0.0).then_some(-1.0) }
 }
 
 /// The range of a number of the first range times a positive one of the second.

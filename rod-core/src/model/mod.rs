@@ -13,6 +13,7 @@ pub(crate) mod uniform;
 
 pub(crate) use interval::Chain;
 pub use interval::CutSensitivities;
+use interval::sign_of_range;
 pub use profile::{Bent, Cone, Profile};
 pub(crate) use propagator::check;
 pub use propagator::{Cut, Propagator};
@@ -47,7 +48,7 @@ use crate::segment::{Segment, Station};
 /// 4. The sensitivities are the derivatives of what [`carry`](Self::carry) gives.
 /// 5. Beyond its ends, s < 0 and s > 1, the rod goes on, with continuous curvature and sensitivities: a solver may try a contact there.
 /// 6. The curvature between two places of a segment stays within [`curvature_bounds`](Self::curvature_bounds). The bounds close in on the
-///    curvature where the places do.
+///    curvature where the places do. It keeps the sign that [`one_bend`](Self::one_bend) tells.
 /// 7. No part of the rod between two places is less stiff than [`least_stiffness`](Self::least_stiffness) says. On 6 and 7 rest the proofs of
 ///    a sweep.
 /// 8. What is not finite, or cannot be computed, gives NaN: never a panic, never an endless loop.
@@ -77,6 +78,13 @@ pub trait RodModel {
     /// Least and largest curvature (1/L) between two places of a segment that carries a force of size `force`, |(A, B)|, each given as
     /// arc length and moment, the one next to the clamp first. On these bounds rests the proof that a rod stays outside of an object.
     fn curvature_bounds(&self, from: (f64, f64), to: (f64, f64), force: f64) -> (f64, f64);
+
+    /// The sense in which the rod bends all along between two places of a segment that carries a force of size `force`, each given as arc
+    /// length and moment, the one next to the clamp first: 1 or -1, or 0 where it is straight. None where it is not proven that the curvature
+    /// keeps its sign. On it rests the proof that a segment stays within the triangle of its chord and of the tangents at its ends.
+    fn one_bend(&self, from: (f64, f64), to: (f64, f64), force: f64) -> Option<f64> {
+        sign_of_range(self.curvature_bounds(from, to, force))
+    }
 
     /// The least bending stiffness (E I) between two arc lengths: on it rests the proof that a segment does not buckle between its ends.
     fn least_stiffness(&self, from: f64, to: f64) -> f64;
@@ -144,6 +152,10 @@ impl<M: RodModel + ?Sized> RodModel for &M {
     #[inline(always)]
     fn curvature_bounds(&self, from: (f64, f64), to: (f64, f64), force: f64) -> (f64, f64) {
         (**self).curvature_bounds(from, to, force)
+    }
+    #[inline(always)]
+    fn one_bend(&self, from: (f64, f64), to: (f64, f64), force: f64) -> Option<f64> {
+        (**self).one_bend(from, to, force)
     }
     fn least_stiffness(&self, from: f64, to: f64) -> f64 {
         (**self).least_stiffness(from, to)

@@ -2,7 +2,9 @@
 
 use crate::error::RodError;
 use crate::model::constant::Constant;
-use crate::model::interval::{Chain, largest_curvature, moment_range, piece_at, pieces, product, union};
+use crate::model::interval::{
+    Chain, largest_curvature, moment_range, piece_at, pieces, product, sign_between, sign_of_range, union,
+};
 use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::segment::Segment;
 
@@ -165,6 +167,22 @@ impl RodModel for Sections {
             all = union(all, (low + part.natural_curvature, high + part.natural_curvature));
         });
         all
+    }
+
+    fn one_bend(&self, from: (f64, f64), to: (f64, f64), force: f64) -> Option<f64> {
+        let (length, mut passed, mut bent, mut compliance) = (to.0 - from.0, 0, [0.0; 2], 0.0_f64);
+        self.passed(from.0, to.0, |part, _, _| {
+            passed += 1;
+            bent = [from.1, to.1].map(|moment| part.curvature(moment));
+            compliance = compliance.max(1.0 / part.stiffness);
+        });
+        if passed == 1 {
+            return sign_between(bent, force * compliance, length);
+        }
+        if self.is_straight() {
+            return sign_between([from.1, to.1], force * compliance, length);
+        }
+        sign_of_range(self.curvature_bounds(from, to, force))
     }
 
     fn least_stiffness(&self, from: f64, to: f64) -> f64 {

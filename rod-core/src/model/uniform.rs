@@ -1,6 +1,6 @@
 //! The uniform straight rod, in closed form.
 
-use crate::model::interval::moment_range;
+use crate::model::interval::{moment_range, sign_between};
 use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::segment::{
     Section, Segment, Sensitivities, Station, advance, advance_with_sensitivities, agm, axial, stations,
@@ -79,6 +79,11 @@ impl RodModel for Uniform {
     /// An arc: that of its moment.
     fn largest_free_curvature(&self, _s: f64, start: &Cut, _to: f64) -> f64 {
         start.moment.abs()
+    }
+
+    #[inline(always)]
+    fn one_bend(&self, from: (f64, f64), to: (f64, f64), force: f64) -> Option<f64> {
+        sign_between([from.1, to.1], force, to.0 - from.0)
     }
 
     #[inline(always)]

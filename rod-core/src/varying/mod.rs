@@ -424,6 +424,9 @@ impl RodModel for VaryingRod {
     fn curvature_bounds(&self, from: (f64, f64), to: (f64, f64), force: f64) -> (f64, f64) {
         self.model.curvature_bounds(from, to, force)
     }
+    fn one_bend(&self, from: (f64, f64), to: (f64, f64), force: f64) -> Option<f64> {
+        self.model.one_bend(from, to, force)
+    }
     fn least_stiffness(&self, from: f64, to: f64) -> f64 {
         self.model.least_stiffness(from, to)
     }

@@ -140,9 +140,8 @@ fn largest_in_piece<M: RodModel + ?Sized>(
         // not where something is NaN
         let may_exceed = bound(model, modulus, [a, b], &left, &right) > largest * (1.0 + ACCURACY);
         let h = right.s - left.s;
-        // where the rate vanishes, if it is linear
-        let share = left.rate / (left.rate - right.rate);
-        let share = if (0.0..=1.0).contains(&share) { share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE) } else { 0.5 };
+        let share = extremum([left.rate, right.rate], (right.stress - left.stress) / h);
+        let share = share.map_or(0.5, |share| share.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE));
         let at = left.s + share * h;
         if !may_exceed || at <= left.s || at >= right.s {
             continue;
@@ -160,12 +159,20 @@ fn largest_in_piece<M: RodModel + ?Sized>(
     largest
 }
 
+/// The share of a way at which the cubic with these rates of opposite signs at its ends, and this mean rate, is stationary.
+fn extremum([first, last]: [f64; 2], mean: f64) -> Option<f64> {
+    let (square, linear) = (3.0 * (first + last) - 6.0 * mean, 6.0 * mean - 4.0 * first - 2.0 * last);
+    let root = (linear * linear - 4.0 * square * first).max(0.0).sqrt();
+    let sum = -0.5 * (linear + root.copysign(linear));
+    let within = |share: &f64| (0.0..=1.0).contains(share);
+    [first / sum, sum / square].into_iter().find(|share| first * last <= 0.0 && within(share))
+}
+
 /// What the stress does not exceed between two places, without a joint between them.
 ///
 /// With g = w m, w = 32 / (pi d^3) and n = -d' / d it is g'' = w (12 n^2 m + 6 n m' + m''), m' = A cos phi + B sin phi and
 /// m'' = kappa (B cos phi - A sin phi). No place is farther than half of the interval from an end, so that the values at the ends, the force
-/// and the curvature bound each factor. A g that is concave is below its tangents at both ends; any g leaves the values at its ends by
-/// h^2 |g''| / 8 at most.
+/// and the curvature bound each factor.
 fn bound<M: RodModel + ?Sized>(model: &M, modulus: &Modulus, [a, b]: [f64; 2], left: &Place, right: &Place) -> f64 {
     let (h, force) = (right.s - left.s, a.hypot(b));
     let kappa = model.curvature_bounds((left.s, left.cut.moment), (right.s, right.cut.moment), force);
@@ -180,24 +187,23 @@ fn bound<M: RodModel + ?Sized>(model: &M, modulus: &Modulus, [a, b]: [f64; 2], l
     let square = product(narrowing, narrowing);
     let (of_moment, of_rate) = (product((12.0 * square.0.max(0.0), 12.0 * square.1), moment), product(narrowing, rate));
     let second = (of_moment.0 + 6.0 * of_rate.0 + bend.0, of_moment.1 + 6.0 * of_rate.1 + bend.1);
-    let at_ends = left.stress.abs().max(right.stress.abs());
-    let w = modulus.inverse(left.s).max(modulus.inverse(right.s));
-    let by_bend = at_ends + 0.125 * w * second.0.abs().max(second.1.abs()) * h * h;
-    // |g| bends down all along: by its sign
-    let sign = if moment.0 >= 0.0 && second.1 <= 0.0 {
-        1.0
-    } else if moment.1 <= 0.0 && second.0 >= 0.0 {
-        -1.0
-    } else {
-        return by_bend;
+    let second = product(second, around(modulus.inverse(left.s), modulus.inverse(right.s), 0.0));
+    let ends = |sign: f64| [left, right].map(|place| (sign * place.stress, sign * place.rate));
+    highest(ends(1.0), h, second.1).max(highest(ends(-1.0), h, -second.0))
+}
+
+/// What a function with these values and rates at both ends of a way `h`, and a second derivative of at most `second`, does not exceed. It is below
+/// the parabolas with this second derivative from both ends, which meet once.
+fn highest([(g0, d0), (g1, d1)]: [(f64, f64); 2], h: f64, second: f64) -> f64 {
+    let meet = (g1 - g0 - d1 * h + 0.5 * second * h * h) / (d0 - d1 + second * h);
+    let meet = if meet.is_nan() { 0.0 } else { meet.clamp(0.0, h) };
+    // each one is largest at one of its ends, or, if it bends down, at its top
+    let part = |g: f64, d: f64, way: f64| {
+        let top = -d / second;
+        let top = if second < 0.0 && top > 0.0 && top < way { g + 0.5 * d * top } else { g };
+        top.max(g + way * (d + 0.5 * second * way))
     };
-    let [(g0, d0), (g1, d1)] = [left, right].map(|place| (sign * place.stress, sign * place.rate));
-    if d0 <= 0.0 || d1 >= 0.0 {
-        return at_ends;
-    }
-    // where the tangents at both ends meet
-    let meet = (g1 - g0 - d1 * h) / (d0 - d1);
-    by_bend.min(g0 + d0 * meet.clamp(0.0, h))
+    part(g0, d0, meet).max(part(g1, -d1, h - meet))
 }
 
 /// The range of a product of numbers of two ranges.

@@ -103,6 +103,35 @@ fn rule_6() {
 }
 
 #[test]
+fn rule_6_of_the_sign() {
+    let mut random = Random::new(9);
+    for (name, rod) in models() {
+        let (mut told, mut changes) = (0, 0);
+        for k in 0..600 {
+            let start = Cut { x: 0.0, y: 0.0, phi: random.within(PI), moment: random.within(0.3) };
+            // some so strong that the curvature changes its sign twice
+            let strength = [0.5, 5.0, 200.0][k % 3] * rod.least_stiffness(0.0, 1.0).sqrt();
+            let (a, b) = (random.within(strength), random.within(strength));
+            let (first, second) = (0.5 + random.within(0.6), 0.5 + random.within(0.6));
+            let (from, to) = (first.min(second), first.max(second));
+            let moment = |s: f64| rod.carry(from, &start, a, b, s - from).moment;
+            let curvatures: Vec<f64> = (0..60)
+                .map(|i| from + (to - from) * (f64::from(i) + 0.5) / 60.0)
+                .map(|s| rod.curvature_at(s, moment(s)))
+                .collect();
+            changes += usize::from(curvatures.windows(2).any(|pair| pair[0] * pair[1] < 0.0));
+            let Some(sign) = rod.one_bend((from, start.moment), (to, moment(to)), a.hypot(b)) else { continue };
+            told += 1;
+            let rounding = 1e-9 * curvatures.iter().fold(1.0, |most: f64, kappa| most.max(kappa.abs()));
+            let keeps = |kappa: &f64| kappa * sign > -rounding && (sign != 0.0 || kappa.abs() < rounding);
+            assert!(curvatures.iter().all(keeps), "rule 6: {name} {sign} {curvatures:?}");
+        }
+        println!("{name}: of 600 segments {told} are told to keep the sign of their curvature, {changes} do not");
+        assert!(told > 60 && changes > 60, "rule 6: {name} {told} {changes}");
+    }
+}
+
+#[test]
 fn rule_7() {
     let good = [0.2, 0.0, 0.0, 0.3, 1.0, 2.0, 3.0, 0.5];
     for (name, rod) in models() {

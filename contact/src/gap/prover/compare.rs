@@ -37,21 +37,31 @@ impl<M: RodModel> Search<'_, M> {
             if !(first..=last).contains(&node) || !self.world.is_on_run(self.run, *stretch, t) {
                 return None;
             }
-            // the rod is at its contact, and, where it is tangential, points along or against the contour
-            let Station { x, y, cos, sin, .. } = self.shape.nodes[node].at;
-            let (sense, normal) = match hold {
-                Hold::Tangent { offset } => {
-                    let sense = 1.0_f64.copysign(offset.cos());
-                    (Some(sense), (sense * sin, -sense * cos))
-                }
-                Hold::Tip => (None, self.world.foot_at(*stretch, t, x, y).normal()),
-            };
+            let (tangent, sense) = self.tangent((*stretch, t), hold, &self.shape.nodes[node].at);
             let outward = self.known.lines[self.place].run.is_some_and(|run| run.bend == Bend::Outward);
-            let tangent = outward.then_some(Line { at: (x, y), normal, outward });
+            let tangent = outward.then_some(tangent);
             let joint = self.world.is_corner(*stretch);
             Some(Touch { node, stretch: *stretch, t, tangent, sense: sense.filter(|_| !joint) })
         };
         configuration.contacts.iter().enumerate().filter_map(touch).collect()
+    }
+
+    /// The tangent of the contour at a contact, whose stretch and parameter are given, and the sense in which a tangential rod runs along it. The
+    /// rod, which is `at` its contact, then points along or against the contour.
+    pub(super) fn tangent(
+        &self,
+        (stretch, t): (usize, f64),
+        hold: &Hold,
+        &Station { x, y, cos, sin, .. }: &Station,
+    ) -> (Line, Option<f64>) {
+        let (sense, normal) = match hold {
+            Hold::Tangent { offset } => {
+                let sense = 1.0_f64.copysign(offset.cos());
+                (Some(sense), (sense * sin, -sense * cos))
+            }
+            Hold::Tip => (None, self.world.foot_at(stretch, t, x, y).normal()),
+        };
+        (Line { at: (x, y), normal, outward: true }, sense)
     }
 
     /// How many intervals from number `i` on, up to number `last`, next to a contact with the run, are clear of it.
@@ -97,7 +107,7 @@ impl<M: RodModel> Search<'_, M> {
     /// curvature: while the rod bends towards the solid by no more than the contour does, slopes and heights stay in order. A contour that
     /// bends outwards stays behind its tangent, and a rod that bends away from the solid in front of it. Where such a contour has turned
     /// more than the rod does at all, its tangent keeps the two apart from there on.
-    fn compare_parallel(
+    pub(super) fn compare_parallel(
         &self,
         run: &Run,
         (stretch, t): (usize, f64),

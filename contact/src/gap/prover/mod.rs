@@ -6,6 +6,7 @@
 //! run add up to more than its length. Otherwise it is halved. A part of the rod that meets no run lies wholly inside or
 //! wholly outside: the sign of the distance, at the clamp and behind each interval that may touch, decides which.
 
+mod arcs;
 mod candidates;
 mod compare;
 mod sides;
@@ -47,6 +48,10 @@ const LEAST_SHARE: f64 = 0.1;
 /// Limit of parts of intervals in one proof; a state takes some tens. Beyond it nothing is proven.
 const MOST_LOOKS: usize = 100_000;
 
+/// Largest number of states for which the proof by arcs is not tried after it has failed. Larger: it is tried again later where it holds. Smaller: it
+/// fails more often.
+const LONGEST_PAUSE: u32 = 64;
+
 /// A point outside of an object and its gap: a disc without solid.
 type Disc = (f64, f64, f64);
 
@@ -69,6 +74,9 @@ pub(crate) struct Prover {
     next: usize,
     /// The run that a free rod was nearest to, and where.
     closest: Option<(usize, f64)>,
+    /// For how many states the proof by arcs, which has failed, is not tried; and for how many it was not tried last.
+    pause: u32,
+    last_pause: u32,
     /// Runs and the intervals (first, last) that are near them.
     near: Vec<(usize, usize, usize)>,
     /// Objects, the intervals of the rod that may touch them, and the run if what cleared an interval of it does not tell the side.
@@ -110,6 +118,29 @@ impl Prover {
             proof.lower = f64::NEG_INFINITY;
         }
         proof
+    }
+
+    /// A lower bound of the gap of the rod of `configuration`, if its arcs prove that it is outside of all objects but for its contacts. Of a free
+    /// rod this proves too little. The `shape` needs no points.
+    pub fn prove_by_arcs(
+        &mut self,
+        rod: &impl RodModel,
+        world: &World<'_>,
+        configuration: &Configuration,
+        shape: &Shape,
+    ) -> Option<f64> {
+        if configuration.count() == 0 {
+            return None;
+        }
+        if self.pause > 0 {
+            self.pause -= 1;
+            return None;
+        }
+        let proven = Search::new(self, rod, world, Some(configuration), shape, GAP_TOLERANCE).by_arcs();
+        // where it fails it fails for many states: a rod between many contacts has too many inflections
+        self.last_pause = if proven.is_some() { 0 } else { (2 * self.last_pause).clamp(1, LONGEST_PAUSE) };
+        self.pause = self.last_pause;
+        proven
     }
 
     /// Whether the straight way between two points goes through an object, runs that `skip` names left out.
@@ -235,7 +266,7 @@ impl<'a, M: RodModel> Search<'a, M> {
             self.in_crowd(interval);
         }
         self.known.near = near;
-        self.clamp();
+        self.clamp(&self.point(0, 0.0));
         if self.proof.crossings.is_empty() {
             self.sides();
         }

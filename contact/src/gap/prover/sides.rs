@@ -5,13 +5,12 @@ use crate::gap::interval::Knot;
 use rod_core::RodModel;
 
 impl<M: RodModel> Search<'_, M> {
-    /// Whether the clamp is inside an object.
-    pub(super) fn clamp(&mut self) {
-        let Knot { at, .. } = self.point(0, 0.0);
-        let world = self.world;
+    /// Whether the clamp is inside an object: notes it.
+    pub(super) fn clamp(&mut self, clamp: &Knot) {
+        let (world, at) = (self.world, clamp.at);
         world.objects_at(at.x, at.y, |object| {
             self.object = object;
-            if !self.is_outside(0, 0.0) {
+            if !self.is_point_outside(clamp) {
                 self.proof.clamp_inside = true;
                 self.proof.seen = self.proof.seen.min(world.object_gap(object, at.x, at.y));
             }
@@ -59,7 +58,7 @@ impl<M: RodModel> Search<'_, M> {
     }
 
     /// The node `k`, or a point by a share of the way to the next one.
-    fn point(&self, k: usize, share: f64) -> Knot {
+    pub(super) fn point(&self, k: usize, share: f64) -> Knot {
         let node = &self.shape.nodes[k];
         if share == 0.0 {
             return Knot::from(node);
@@ -81,11 +80,15 @@ impl<M: RodModel> Search<'_, M> {
 
     /// Whether a point of the rod is outside of the object: mostly it is in a disc that is known to be.
     fn is_outside(&mut self, k: usize, share: f64) -> bool {
-        let (world, object) = (self.world, self.object);
         if share == 0.0 && self.is_touching(k) {
             return true;
         }
-        let Knot { at, .. } = self.point(k, share);
+        self.is_point_outside(&self.point(k, share))
+    }
+
+    /// The same of a point that is no contact.
+    fn is_point_outside(&mut self, Knot { at, .. }: &Knot) -> bool {
+        let (world, object) = (self.world, self.object);
         if world.is_far_outside(object, at.x, at.y) {
             return true;
         }

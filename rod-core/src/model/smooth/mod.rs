@@ -7,7 +7,9 @@ mod mesh;
 
 use crate::error::RodError;
 use crate::model::constant::Constant;
-use crate::model::interval::{Chain, Range, curvature_range, piece_at, pieces, union};
+use crate::model::interval::{
+    Chain, Range, curvature_range, piece_at, pieces, sign_between, sign_by_cells, sign_of_range, union,
+};
 use crate::model::profile::Profile;
 use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::segment::Segment;
@@ -216,6 +218,16 @@ impl<P: Profile> RodModel for Smooth<P> {
             (compliance, natural) = (union(compliance, of_compliance), union(natural, of_natural));
         });
         curvature_range([from.1, to.1], force, to.0 - from.0, compliance, natural)
+    }
+
+    fn one_bend(&self, from: (f64, f64), to: (f64, f64), force: f64) -> Option<f64> {
+        if !self.is_straight() {
+            return sign_of_range(self.curvature_bounds(from, to, force));
+        }
+        let (moments, length) = ([from.1, to.1], to.0 - from.0);
+        sign_between(moments, force / self.least_stiffness(from.0, to.0), length).or_else(|| {
+            sign_by_cells(moments, force, length, |x, y| 1.0 / self.least_stiffness(from.0 + x, from.0 + y))
+        })
     }
 
     fn least_stiffness(&self, from: f64, to: f64) -> f64 {
