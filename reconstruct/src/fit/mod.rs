@@ -255,13 +255,13 @@ pub fn fit_contours<R: PhysicalRod>(
         }
     }
     let samples: Vec<Sample> = recordings.iter().flat_map(|(samples, _)| *samples).copied().collect();
-    if !best.goodness.explains || used.free.is_empty() {
-        return Ok(best.results(rod, &samples, blocks, used, &uniform));
-    }
     // errors may be in the place of friction that was not asked for
-    let rubbing = if used.is_rough { None } else { with_friction(rod, used, &best, blocks) };
+    let may_rub = !used.is_rough && !used.free.is_empty() && best.is_near();
+    let rubbing = if may_rub { with_friction(rod, used, &best, blocks) } else { None };
     let (best, used) = rubbing.unwrap_or_else(|| (best, used.clone()));
-    let (best, used) = with_fewest_errors(rod, &used, &best, blocks).unwrap_or((best, used));
+    let is_explained_by_errors = best.goodness.explains && !used.free.is_empty();
+    let fewer = if is_explained_by_errors { with_fewest_errors(rod, &used, &best, blocks) } else { None };
+    let (best, used) = fewer.unwrap_or((best, used));
     Ok(best.results(rod, &samples, blocks, &used, &uniform))
 }
 
