@@ -40,12 +40,14 @@ pub struct Pass {
 
 impl Pass {
     /// The sign of friction as it was used, or as the pass tells it; 1 where nothing does.
+    #[cfg(feature = "contact")]
     pub(crate) fn drawn(&self) -> f64 {
         let told = self.friction.map_or(1.0, |friction| friction.mu);
         1.0_f64.copysign(if self.used_friction == 0.0 { told } else { self.used_friction })
     }
 
     /// Takes the errors of a fit for its own: those of friction have the sign of the pass.
+    #[cfg(feature = "contact")]
     fn adopt(&mut self, errors: &[(Source, f64, f64)]) {
         let drawn = self.drawn();
         let found = |source: Source| {

@@ -25,6 +25,7 @@ mod source;
 pub use across::{Influence, influences};
 pub use budget::Budget;
 pub(crate) use calibrate::{CalibrationScan, calibrate, calibrate_labelled, errors_before_scan, log_likelihood};
+#[cfg(feature = "contact")]
 pub(crate) use calibration::BEYOND;
 pub use calibration::{Calibration, SourceEstimate};
 pub(crate) use candidates::{SourceCandidate, candidates};
