@@ -110,7 +110,7 @@ impl<'a, R: PhysicalRod> Stepper<'a, R> {
         self.scanner.is_stable(&self.corrector.setup, configuration, scan)
     }
 
-    /// A configuration at a transition with its scan.
+    /// A configuration at a transition with its scan. Where all contacts slide, new ones do from there on.
     pub fn look(&mut self, mut configuration: Configuration) -> Seen {
         slide_new_contacts(&self.corrector.setup.world, &mut configuration);
         let scan = self.scanner.scan_transition(&self.corrector.setup, &configuration);

@@ -124,7 +124,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
     /// the equilibrium with this coefficient where it is.
     ///
     /// ```
-    /// use rod_contact::{Follower};
+    /// use rod_contact::Follower;
     /// use rod_contours::{Composite, Parabola};
     /// use rod_core::{Pose, Rod};
     /// let (rod, object) = (Rod::new(1.0, 1.0)?, Composite::single(Parabola::new([0.0, 0.0], 5.0)?)?);
