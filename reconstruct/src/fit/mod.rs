@@ -262,6 +262,8 @@ pub fn fit_contours<R: PhysicalRod>(
     let is_explained_by_errors = best.goodness.explains && !used.free.is_empty();
     let fewer = if is_explained_by_errors { with_fewest_errors(rod, &used, &best, blocks) } else { None };
     let (best, used) = fewer.unwrap_or((best, used));
+    // other errors may be in the place of friction also where none is needed
+    let best = best.with_least_spread(&used.least_spread(&locals));
     Ok(best.results(rod, &samples, blocks, &used, &uniform))
 }
 

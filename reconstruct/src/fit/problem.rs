@@ -85,7 +85,9 @@ impl Sources {
             let rubbing = local.passes.iter().find(|pass| pass.used_friction != 0.0);
             let sign = rubbing.map_or(0.0, Pass::drawn);
             (known[k], start[k]) = (sign * known[k], sign * start[k]);
-            if let Some(pass) = rubbing.filter(|pass| pass.calibration.is_none()) {
+            // a coefficient that is known exactly is none of the estimates
+            let is_estimated = local.calibration().is_some_and(|found| found.source(Source::Friction).is_some());
+            if let Some(pass) = rubbing.filter(|_| !is_estimated) {
                 (known[k], start[k]) = (pass.used_friction.abs(), pass.used_friction.abs());
             }
         }
@@ -115,6 +117,18 @@ impl Sources {
     /// Whether an error is always free.
     pub fn is_always_free(&self, error: &FreeError) -> bool {
         self.is_rough && error.source == Source::Friction
+    }
+
+    /// For each error the standard deviation, in that of its budget, in which the local answers contain other errors in its place: of friction that was asked
+    /// for; 0 of others.
+    pub fn least_spread(&self, locals: &[&Reconstruction]) -> Vec<f64> {
+        let sigma = self.sigmas[Source::Friction as usize];
+        let of = |error: &FreeError| {
+            let local = locals.get(error.recording?)?;
+            let told = local.passes.iter().filter_map(|pass| Some(pass.friction?.sigma / sigma));
+            self.is_always_free(error).then(|| told.fold(0.0, f64::max))
+        };
+        self.free.iter().map(|error| of(error).unwrap_or_default()).collect()
     }
 
     /// The same with friction of each recording, of which nothing is known.

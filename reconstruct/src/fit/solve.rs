@@ -325,6 +325,12 @@ impl Solved {
         Posterior { errors: self.errors(), covariance, possible }
     }
 
+    /// With at least these standard deviations of the errors, in those of their budget.
+    pub fn with_least_spread(mut self, least: &[f64]) -> Self {
+        self.spread.iter_mut().zip(least).for_each(|(spread, least)| *spread = spread.max(*least));
+        self
+    }
+
     /// With other standard deviations of the errors, in those of their budget.
     pub fn with_spread(self, spread: Vec<f64>) -> Self {
         Self { spread, ..self }

@@ -531,6 +531,38 @@ fn friction_comes_out_with_the_contour() {
     assert!((found.passes[0].used_friction - mu).abs() < 2e-3, "{}", found.passes[0].used_friction);
 }
 
+/// Three recordings of an outside test had mu 6 to 12 standard deviations off.
+#[test]
+fn the_uncertainty_of_friction_contains_other_errors() {
+    let (rod, mu) = (steel(), 0.2);
+    let states = rubbing_states(&rod, mu, 3e-4);
+    let bias = [(Source::BiasF0x, 0.003), (Source::ClampAngle, 0.006)];
+    let (rod, mut disturbed) = disturb(&rod, &samples(&states), |source| error_of(&bias, source)).unwrap();
+    noisy(&mut disturbed, 0);
+    let settings = Settings { friction: crate::Friction::Estimate, budget: None, ..AS_IS };
+    let found = reconstruct_passes(&rod, &disturbed, &settings).unwrap();
+    let fit = fit_contour(&rod, &disturbed, &found).unwrap();
+    assert!(fit.goodness.explains, "{:?}", fit.goodness);
+    let (_, value, sigma) = fit.errors.iter().find(|error| error.0 == Source::Friction).unwrap();
+    println!("{value} +- {sigma}");
+    assert!(
+        (value - mu).abs() < 3.0 * sigma && *sigma >= found.passes[0].friction.unwrap().sigma,
+        "{value} +- {sigma}"
+    );
+}
+
+/// A coefficient that is known exactly is no unknown: it was left out of the model.
+#[test]
+fn a_known_coefficient_is_that_of_the_fit() {
+    let (rod, mu) = (steel(), 0.2);
+    let states = rubbing_states(&rod, mu, 3e-4);
+    let mut samples = samples(&states);
+    noisy(&mut samples, 0);
+    let settings = Settings { friction: crate::Friction::Known { mu, sigma: 0.0 }, ..AS_IS };
+    let fit = fitted(&rod, &samples, &settings).unwrap();
+    assert!(fit.goodness.explains && fit.errors.is_empty(), "{:?} {:?}", fit.goodness, fit.errors);
+}
+
 /// Errors of the sensor and of the clamp could take the place of friction that is not asked for.
 #[test]
 fn friction_that_is_not_asked_for_is_told_from_errors() {
