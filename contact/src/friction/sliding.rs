@@ -18,7 +18,7 @@ const SAME: f64 = 1e-12;
 
 /// f_t / f of contact j by its coefficient.
 fn ratio_of(world: &World<'_>, configuration: &Configuration, j: usize) -> f64 {
-    if world.sliding() == 0.0 { 0.0 } else { world.sliding() * along(world, configuration, j) }
+    world.sliding() * along(world, configuration, j)
 }
 
 /// The rate of f_t / f of contact j by the coefficient with which it slides: 1 where the rod runs in the sense of the contour, -1 where it runs against it,
@@ -33,20 +33,23 @@ pub(crate) fn along(world: &World<'_>, configuration: &Configuration, j: usize) 
 
 /// Lets contacts without a force slide, which changes nothing yet.
 pub(crate) fn slide_new_contacts(world: &World<'_>, configuration: &mut Configuration) {
-    if world.sliding() == 0.0 {
-        return;
-    }
-    for j in 0..configuration.count() {
-        if configuration.force(j).abs() < UNLOADED {
-            configuration.set_slipping(j, ratio_of(world, configuration, j));
-        }
-    }
+    slide_where(world, configuration, |force| force.abs() < UNLOADED);
 }
 
 /// The guess of an equilibrium all of whose contacts slide.
 pub(crate) fn slide_all(world: &World<'_>, configuration: &mut Configuration) {
-    for j in (0..configuration.count()).filter(|_| world.sliding() != 0.0) {
-        configuration.set_slipping(j, ratio_of(world, configuration, j));
+    slide_where(world, configuration, |_| true);
+}
+
+/// Lets contacts with some forces slide, if contacts slide at all.
+fn slide_where(world: &World<'_>, configuration: &mut Configuration, slides: impl Fn(f64) -> bool) {
+    if world.sliding() == 0.0 {
+        return;
+    }
+    for j in 0..configuration.count() {
+        if slides(configuration.force(j)) {
+            configuration.set_slipping(j, ratio_of(world, configuration, j));
+        }
     }
 }
 

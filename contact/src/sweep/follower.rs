@@ -141,6 +141,10 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
     /// # Errors
     /// [`ContactError::NotFinite`]; [`ContactError::NotEquilibrium`] where there is no equilibrium with this coefficient.
     pub fn sliding(mut self, coefficient: f64) -> Result<Self, ContactError> {
+        // nothing to bring anywhere, as for each rod without friction
+        if coefficient == self.sweep.setup().world.sliding() {
+            return Ok(self);
+        }
         let here = &self.at.configuration;
         self.sweep.stepper.corrector.setup.world.slide(coefficient)?;
         let at = sliding_near(&mut self.sweep.stepper.corrector, here)
