@@ -19,13 +19,27 @@ use crate::model::profile::Profile;
 
 pub(super) type Values = [f64; NODES];
 
-/// An iterate counts as the solution where the next correction (radians) is as good as none: the one after it would be its square.
-const SOLVED: f64 = 1e-13;
+/// An iterate counts as the solution where the next correction would be as good as none, radians. It is taken for as much smaller than the
+/// last one as that was than the one before it, or, after the first one, for its square.
+const SOLVED: f64 = 1e-15;
 /// What each correction with an old matrix must shrink to, of the one before it, for that matrix to serve on.
 const CONTRACTION: f64 = 0.05;
 const MOST_ITERATIONS: usize = 12;
-/// Up to here the series of sine and cosine are exact to rounding, radians.
-const SMALL: f64 = 0.1;
+/// Up to these angles (radians) so many terms of the series of sine and versine are exact to rounding.
+const SMALL: (f64, usize) = (0.1, 5);
+const MODERATE: (f64, usize) = (0.8, 8);
+
+/// 1 / (2 k + 1)! and 1 / (2 k + 2)!
+const SERIES: [[f64; 2]; MODERATE.1] = {
+    let (mut series, mut k) = ([[1.0, 0.5]; MODERATE.1], 1);
+    while k < MODERATE.1 {
+        let n = 2.0 * k as f64;
+        let sine = series[k - 1][1] / (n + 1.0);
+        series[k] = [sine, sine / (n + 2.0)];
+        k += 1;
+    }
+    series
+};
 
 /// An element under its load, solved.
 pub(super) struct Element {
@@ -35,7 +49,7 @@ pub(super) struct Element {
     start: Cut,
     compliance: Values,
     natural: Values,
-    /// W by columns.
+    /// W by columns; without a force it is left out.
     swing: [Values; NODES],
     cos: Values,
     sin: Values,
@@ -45,62 +59,78 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// The element of length `h` from the cut `start` at `s`. None where the iteration does not converge.
-    #[inline]
-    pub fn solve(profile: &impl Profile, s: f64, h: f64, start: &Cut, force: [f64; 2]) -> Option<Self> {
-        let zero = [0.0; NODES];
-        let compliance: Values = std::array::from_fn(|i| 1.0 / profile.stiffness(s + AT[i] * h));
-        let natural: Values = std::array::from_fn(|i| profile.natural_curvature(s + AT[i] * h));
-        let mut swing = [zero; NODES];
-        for (column, parts) in swing.iter_mut().zip(&UP_TO) {
-            for j in 0..NODES {
-                let weight = h * h * compliance[j] * parts[j];
-                (0..NODES).for_each(|i| column[i] += UP_TO[j][i] * weight);
-            }
-        }
+    /// None that has been solved.
+    pub const UNSOLVED: Self = Self {
+        h: 0.0,
+        force: [0.0; 2],
+        start: Cut { x: 0.0, y: 0.0, phi: 0.0, moment: 0.0 },
+        compliance: [0.0; NODES],
+        natural: [0.0; NODES],
+        swing: [[0.0; NODES]; NODES],
+        cos: [0.0; NODES],
+        sin: [0.0; NODES],
+        pull: [0.0; NODES],
+        pull_by_phi: [0.0; NODES],
+    };
+
+    /// Makes it the element of length `h` from the cut `start` at `s`. Whether the iteration converged.
+    #[inline(never)]
+    pub fn solve(&mut self, profile: &impl Profile, s: f64, h: f64, start: &Cut, force: [f64; 2]) -> bool {
+        (self.h, self.force, self.start) = (h, force, *start);
+        self.compliance = std::array::from_fn(|i| 1.0 / profile.stiffness(s + AT[i] * h));
+        self.natural = std::array::from_fn(|i| profile.natural_curvature(s + AT[i] * h));
         let mut unbent = [start.phi; NODES];
         for j in 0..NODES {
-            let rate = h * (natural[j] + compliance[j] * start.moment);
+            let rate = h * (self.natural[j] + self.compliance[j] * start.moment);
             (0..NODES).for_each(|i| unbent[i] += UP_TO[j][i] * rate);
         }
         let (sin, cos) = start.phi.sin_cos();
-        let mut element = Self {
-            h,
-            force,
-            start: *start,
-            compliance,
-            natural,
-            swing,
-            cos: zero,
-            sin: zero,
-            pull: [force[0] * cos + force[1] * sin; NODES],
-            pull_by_phi: zero,
-        };
-        // as if the force kept its lever
-        let mut phi = element.swung(&unbent);
-        element.turn_to(&phi);
-        let mut matrix = element.matrix();
+        let [pull, pull_by_phi] = [force[0] * cos + force[1] * sin, force[1] * cos - force[0] * sin];
+        (self.cos, self.sin) = ([cos; NODES], [sin; NODES]);
+        if force == [0.0; 2] {
+            self.turn_by(&unbent.map(|phi| phi - start.phi), &unbent);
+            return true;
+        }
+        self.swing();
+        // as if the force kept its lever, and then as its lever changes by that
+        self.pull = [pull; NODES];
+        let turned = self.swung(&unbent).map(|phi| phi - start.phi);
+        self.pull = turned.map(|d| pull + d * (pull_by_phi - 0.5 * d * pull));
+        let mut phi = self.swung(&unbent);
+        self.turn_by(&phi.map(|phi| phi - start.phi), &phi);
+        let mut matrix = self.matrix();
         let mut before = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
-            let target = element.swung(&unbent);
+            let target = self.swung(&unbent);
             let mut correction: Values = std::array::from_fn(|i| target[i] - phi[i]);
             matrix.solve(&mut correction);
-            let size =
-                correction.iter().fold(0.0, |most: f64, d| if d.abs() > most || d.is_nan() { d.abs() } else { most });
             (0..NODES).for_each(|i| phi[i] += correction[i]);
-            element.turn_by(&correction, size, &phi);
-            if size < SOLVED {
-                return Some(element);
+            let size = self.turn_by(&correction, &phi);
+            if size * (size / before).max(size) < SOLVED {
+                return true;
             }
             if size.is_nan() || size > 2.0 * before {
-                return None;
+                return false;
             }
             if size > CONTRACTION * before {
-                matrix = element.matrix();
+                matrix = self.matrix();
             }
             before = size;
         }
-        None
+        false
+    }
+
+    #[inline(always)]
+    fn swing(&mut self) {
+        let weights = self.compliance.map(|compliance| self.h * self.h * compliance);
+        for (own, parts) in self.swing.iter_mut().zip(&UP_TO) {
+            let mut column = [0.0; NODES];
+            for j in 0..NODES {
+                let weight = weights[j] * parts[j];
+                (0..NODES).for_each(|i| column[i] += UP_TO[j][i] * weight);
+            }
+            *own = column;
+        }
     }
 
     /// The angles that the force gives the nodes.
@@ -113,30 +143,36 @@ impl Element {
         phi
     }
 
+    /// Turns the nodes by `angles` to the angles `phi`. Returns the largest |angle|, NaN if one is.
     #[inline(always)]
-    fn turn_to(&mut self, phi: &Values) {
-        for i in 0..NODES {
-            (self.sin[i], self.cos[i]) = phi[i].sin_cos();
+    fn turn_by(&mut self, angles: &Values, phi: &Values) -> f64 {
+        let size = angles.iter().fold(0.0, |most: f64, d| if d.abs() > most || d.is_nan() { d.abs() } else { most });
+        if size < SMALL.0 {
+            self.turn_by_series::<{ SMALL.1 }>(angles);
+        } else if size < MODERATE.0 {
+            self.turn_by_series::<{ MODERATE.1 }>(angles);
+        } else {
+            (0..NODES).for_each(|i| (self.sin[i], self.cos[i]) = phi[i].sin_cos());
         }
         self.pull();
+        size
     }
 
-    /// Turns the nodes by small angles to the angles `phi`.
     #[inline(always)]
-    fn turn_by(&mut self, angles: &Values, size: f64, phi: &Values) {
-        if size >= SMALL || size.is_nan() {
-            return self.turn_to(phi);
-        }
+    fn turn_by_series<const TERMS: usize>(&mut self, angles: &Values) {
         for i in 0..NODES {
-            let (d, square) = (angles[i], angles[i] * angles[i]);
-            let sine = d
-                * (1.0 - square * (1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0 - square / 362_880.0))));
-            let versine = square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square / 40_320.0)));
+            let square = angles[i] * angles[i];
+            let (mut sine, mut versine) = (0.0, 0.0);
+            for k in (0..TERMS).rev() {
+                // 1 - d^2 / (2 3) + .. and 1/2 - d^2 / (2 3 4) + ..
+                sine = SERIES[k][0] - square * sine;
+                versine = SERIES[k][1] - square * versine;
+            }
+            let (sine, versine) = (angles[i] * sine, square * versine);
             let (cos, sin) = (self.cos[i], self.sin[i]);
             self.cos[i] = cos - (cos * versine + sin * sine);
             self.sin[i] = sin + (cos * sine - sin * versine);
         }
-        self.pull();
     }
 
     #[inline(always)]
@@ -167,12 +203,11 @@ impl Element {
     #[inline(always)]
     pub fn end(&self) -> Cut {
         let Self { h, force: [a, b], start, .. } = self;
-        let (by_pull, by_moment) = self.turn_of_end();
         let (dx, dy) = (h * dot(&WEIGHT, &self.cos), h * dot(&WEIGHT, &self.sin));
         Cut {
             x: start.x + dx,
             y: start.y + dy,
-            phi: start.phi + h * dot(&WEIGHT, &self.natural) + by_moment * start.moment + dot(&by_pull, &self.pull),
+            phi: start.phi + h * dot(&WEIGHT, &self.curvatures()),
             moment: start.moment + (a * dx + b * dy),
         }
     }
@@ -180,8 +215,11 @@ impl Element {
     /// The end's changes (what it adds to the position; angle, moment) with the moment at the start of the interval, A and B, which
     /// change angle and moment at the start of the element by `directions`.
     #[inline(always)]
-    pub fn changes(&self, directions: [[f64; 2]; 3]) -> [[f64; 4]; 3] {
-        let Self { h, force: [a, b], cos, sin, .. } = self;
+    pub fn changes(&mut self, directions: [[f64; 2]; 3]) -> [[f64; 4]; 3] {
+        if self.force == [0.0; 2] {
+            self.swing();
+        }
+        let Self { h, force: [a, b], cos, sin, .. } = &*self;
         let matrix = self.matrix();
         let (by_pull, by_moment) = self.turn_of_end();
         let mut by_start_moment = [0.0; NODES];
@@ -219,15 +257,18 @@ impl Element {
         self.start
     }
 
+    #[inline(always)]
     fn moments(&self) -> Values {
         let mut moments = [self.start.moment; NODES];
         for k in 0..NODES {
-            (0..NODES).for_each(|i| moments[i] += self.h * UP_TO[k][i] * self.pull[k]);
+            let rate = self.h * self.pull[k];
+            (0..NODES).for_each(|i| moments[i] += UP_TO[k][i] * rate);
         }
         moments
     }
 
     /// The curvatures at its nodes.
+    #[inline(always)]
     pub fn curvatures(&self) -> Values {
         let moments = self.moments();
         std::array::from_fn(|i| moments[i] * self.compliance[i] + self.natural[i])

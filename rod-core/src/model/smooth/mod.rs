@@ -111,25 +111,34 @@ impl<P: Profile> Smooth<P> {
     /// Goes along a part of the rod between two joints, element by element, each with the arc length where it starts. What cannot be
     /// computed ends as NaN.
     #[inline(always)]
-    fn elements(&self, from: f64, to: f64, start: &Cut, force: [f64; 2], mut show: impl FnMut(f64, &Element)) -> Cut {
-        let (mut at, mut cut) = (from, *start);
+    fn elements(
+        &self,
+        from: f64,
+        to: f64,
+        start: &Cut,
+        force: [f64; 2],
+        mut show: impl FnMut(f64, &mut Element),
+    ) -> Cut {
+        let (mut at, mut cut, mut element) = (from, *start, Element::UNSOLVED);
         for _ in 0..MOST_ELEMENTS {
             if at == to {
                 return cut;
             }
             let (mut h, is_last) = self.length(at, to, &cut, force);
             // a bound that was too bold shows in an iteration that does not converge
-            let mut found = Element::solve(&self.profile, at, h, &cut, force);
-            let whole = found.is_some();
+            let whole = element.solve(&self.profile, at, h, &cut, force);
+            let mut solved = whole;
             for _ in 0..MOST_HALVINGS {
-                if found.is_some() {
+                if solved {
                     break;
                 }
                 h *= 0.5;
-                found = Element::solve(&self.profile, at, h, &cut, force);
+                solved = element.solve(&self.profile, at, h, &cut, force);
             }
-            let Some(element) = found else { break };
-            show(at, &element);
+            if !solved {
+                break;
+            }
+            show(at, &mut element);
             cut = element.end();
             at = if is_last && whole { to } else { at + h };
         }
