@@ -78,11 +78,35 @@ pub(crate) fn phase_rate(rod: &impl RodModel, from: f64, to: f64, force: f64) ->
     (force / rod.least_stiffness(from, to)).sqrt()
 }
 
-/// Whether a segment is too short to buckle between its ends under a force, both ends clamped in angle: force < E I (pi / length)^2.
+/// Parts of a segment on each of which its least stiffness stands for it.
+const PARTS: usize = 8;
+
+/// Whether a segment does not buckle between its ends under a force, both ends clamped in angle: force < E I (pi / length)^2, or the same for
+/// a stiffness that varies.
+///
+/// By Sturm's comparison theorem it does not where the solution of (e eta')' = -force eta that vanishes at one end has no other zero, with
+/// a stiffness e that is nowhere larger than that of the rod: the least one of each part.
 #[inline(always)]
 pub(crate) fn holds_between_ends(rod: &impl RodModel, from: f64, to: f64, force: f64) -> bool {
     let length = to - from;
-    length > 0.0 && force * length * length < PI * PI * rod.least_stiffness(from, to)
+    length > 0.0
+        && (force * length * length < PI * PI * rod.least_stiffness(from, to)
+            || (!rod.is_uniform() && holds_by_parts(rod, from, length / PARTS as f64, force)))
+}
+
+/// The same by parts of this length.
+#[inline(never)]
+fn holds_by_parts(rod: &impl RodModel, from: f64, length: f64, force: f64) -> bool {
+    let (mut turn, mut moment) = (0.0, 1.0);
+    (0..PARTS).all(|k| {
+        let stiffness = rod.least_stiffness(from + length * k as f64, from + length * (k + 1) as f64);
+        let resistance = (force * stiffness).sqrt();
+        let phase = length * (force / stiffness).sqrt();
+        let (sin, cos) = phase.sin_cos();
+        (turn, moment) = (turn * cos + moment / resistance * sin, moment * cos - turn * resistance * sin);
+        // less than half of a wave has one zero at most, which shows at its end
+        phase < PI && turn > 0.0
+    })
 }
 
 /// Number of segments before the one that leads to the first of so many contacts: 1 where the rod runs through a roller.

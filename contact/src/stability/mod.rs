@@ -116,7 +116,7 @@ impl Judge {
             let Segment { a, b, .. } = shape.segments[i];
             match turns.scale {
                 Some(scale) => integrals.add(shape.along(i), (a, b), scale),
-                None => integrals.add_at(rod, shape.along(i), (a, b), &|s| turns.phase(rod, s)),
+                None => integrals.add_at(rod, shape.along(i), (a, b), &turns),
             }
             let (support, form, s) = match i.checked_sub(lead) {
                 None => (roller::support(shape), roller::form(rod, shape), shape.segments[1].s),
@@ -164,19 +164,24 @@ impl Turns {
         if rod.is_uniform() && !at_nodes {
             return Self { softness: end, scale: Some(PI / end) };
         }
-        Self { softness: softness(rod, end), scale: None }
+        Self { softness: softness(rod, 0.0, end), scale: None }
     }
 
     fn phase(&self, rod: &impl RodModel, s: f64) -> f64 {
-        self.scale.map_or_else(|| PI * softness(rod, s) / self.softness, |scale| scale * s)
+        self.scale.map_or_else(|| self.on(rod, 0.0, s), |scale| scale * s)
+    }
+
+    /// How much it grows between two places.
+    fn on(&self, rod: &impl RodModel, from: f64, to: f64) -> f64 {
+        PI * softness(rod, from, to) / self.softness
     }
 }
 
-/// int ds / EI from the clamp on: by how much more the rod turns under a moment than at rest. Under a moment of 1 a thin tip would be wound
+/// int ds / EI between two places: by how much more the rod turns under a moment than at rest. Under a moment of 1 a thin tip would be wound
 /// up; under that of its least stiffness the rod turns by 1 rad at most.
-fn softness(rod: &impl RodModel, s: f64) -> f64 {
-    let turned = |moment: f64| rod.carry(0.0, &Cut { x: 0.0, y: 0.0, phi: 0.0, moment }, 0.0, 0.0, s).phi;
-    let moment = rod.least_stiffness(0.0, s);
+fn softness(rod: &impl RodModel, from: f64, to: f64) -> f64 {
+    let turned = |moment: f64| rod.carry(from, &Cut { x: 0.0, y: 0.0, phi: 0.0, moment }, 0.0, 0.0, to - from).phi;
+    let moment = rod.least_stiffness(from, to);
     (turned(moment) - turned(0.0)) / moment
 }
 
@@ -321,6 +326,14 @@ struct Point {
     at: Station,
 }
 
+impl Point {
+    /// One that comes after it.
+    fn to(&self, rod: &impl RodModel, turns: &Turns, s: f64, at: Station) -> Self {
+        let x = turns.scale.map_or_else(|| self.x + turns.on(rod, self.s, s), |scale| scale * s);
+        Self { s, x, at }
+    }
+}
+
 /// What is integrated along the rod for the modes eta_m = sin((m + 1/2) x), by Simpson's rule, lane by lane.
 #[derive(Debug, Default)]
 struct Integrals {
@@ -345,39 +358,41 @@ impl Integrals {
         self.load = 0.0;
     }
 
-    /// Goes on along the `nodes` of a segment under the force (A, B), with any x of the arc length: where x grows fast, as at a soft tip, with
-    /// points in between.
-    fn add_at(&mut self, rod: &impl RodModel, nodes: &[Node], force: (f64, f64), x: &impl Fn(f64) -> f64) {
-        let points = |node: &Node| Point { s: node.s, x: x(node.s), at: node.at };
+    /// Goes on along the `nodes` of a segment under the force (A, B), with any phase: where it grows fast, as at a soft tip, with points in
+    /// between.
+    fn add_at(&mut self, rod: &impl RodModel, nodes: &[Node], force: (f64, f64), turns: &Turns) {
+        let [first, rest @ ..] = nodes else { return };
         let mut modes = Vec::new();
-        let mut left = nodes.first().map(points);
-        for pair in nodes.get(1..).unwrap_or_default().chunks_exact(2) {
-            let (Some(first), [middle, last]) = (left, [points(&pair[0]), points(&pair[1])]) else { return };
-            self.add_panel(rod, [first, middle, last], force, (x, MOST_HALVINGS), &mut modes);
-            left = Some(last);
+        let mut left = Point { s: first.s, x: turns.phase(rod, first.s), at: first.at };
+        for pair in rest.chunks_exact(2) {
+            let after = |before: &Point, node: &Node| before.to(rod, turns, node.s, node.at);
+            let middle = after(&left, &pair[0]);
+            let last = after(&middle, &pair[1]);
+            self.add_panel(rod, [left, middle, last], force, (turns, MOST_HALVINGS), &mut modes);
+            left = last;
         }
     }
 
-    /// Two equal intervals by Simpson's rule, or by halves where x grows too much along them.
+    /// Two equal intervals by Simpson's rule, or by halves where the phase grows too much along them.
     fn add_panel(
         &mut self,
         rod: &impl RodModel,
         panel: [Point; 3],
         (a, b): (f64, f64),
-        (x, halvings): (&impl Fn(f64) -> f64, u32),
+        (turns, halvings): (&Turns, u32),
         modes: &mut Vec<f64>,
     ) {
         let [first, middle, last] = panel;
         if last.x - first.x > MOST_PHASE && halvings > 0 {
             let quarter = |from: Point, to: Point| {
                 let s = 0.5 * (from.s + to.s);
-                let Station { x: at_x, y, cos, sin, moment } = from.at;
-                let start = Cut { x: at_x, y, phi: sin.atan2(cos), moment };
-                Point { s, x: x(s), at: Station::from(&rod.carry(from.s, &start, a, b, s - from.s)) }
+                let Station { x, y, cos, sin, moment } = from.at;
+                let start = Cut { x, y, phi: sin.atan2(cos), moment };
+                from.to(rod, turns, s, Station::from(&rod.carry(from.s, &start, a, b, s - from.s)))
             };
             let [before, after] = [quarter(first, middle), quarter(middle, last)];
-            self.add_panel(rod, [first, before, middle], (a, b), (x, halvings - 1), modes);
-            self.add_panel(rod, [middle, after, last], (a, b), (x, halvings - 1), modes);
+            self.add_panel(rod, [first, before, middle], (a, b), (turns, halvings - 1), modes);
+            self.add_panel(rod, [middle, after, last], (a, b), (turns, halvings - 1), modes);
             return;
         }
         let third = (last.s - first.s) / 6.0;

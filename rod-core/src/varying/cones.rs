@@ -72,6 +72,10 @@ impl Profile for Cones {
         let square = diameter * diameter;
         square * square
     }
+    #[inline(always)]
+    fn is_monotonic(&self) -> bool {
+        true
+    }
 }
 
 /// The steepest change between two points.

@@ -112,4 +112,7 @@ impl Profile for Steps {
     fn stiffness(&self, s: f64) -> f64 {
         self.stiffness[self.joints.partition_point(|&joint| joint <= s)]
     }
+    fn is_monotonic(&self) -> bool {
+        true
+    }
 }

@@ -93,8 +93,9 @@ impl<P: Profile> Smooth<P> {
         let at = |s: f64| [1.0 / self.profile.stiffness(s), self.profile.natural_curvature(s)];
         let (first, last) = (at(from + BESIDE), at(to - BESIDE));
         let (half, steepest) = (0.5 * (to - from), self.mesh.steepest(from, to));
+        let bounded_by_ends = [self.profile.is_monotonic(), false];
         let range = |k: usize| {
-            let slack = half * steepest[k];
+            let slack = if bounded_by_ends[k] { 0.0 } else { half * steepest[k] };
             (first[k].min(last[k]) - slack, first[k].max(last[k]) + slack)
         };
         // no compliance is negative, however steeply it falls
