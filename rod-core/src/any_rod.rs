@@ -229,6 +229,15 @@ impl RodModel for AnyRod {
     fn bending_energy(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64 {
         ask!(self, model => model.bending_energy(segment, to, end))
     }
+    fn bending_energy_by_parts(
+        &self,
+        segment: &Segment<Cut>,
+        to: f64,
+        end: &Cut,
+        show: &mut dyn FnMut(Segment<Cut>),
+    ) -> f64 {
+        ask!(self, model => model.bending_energy_by_parts(segment, to, end, show))
+    }
     fn largest_curvature(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64 {
         ask!(self, model => model.largest_curvature(segment, to, end))
     }

@@ -7,9 +7,7 @@ use crate::limits::LIMITS;
 use crate::scene::Setup;
 use crate::scene::world::World;
 use crate::state::{Certificate, Contact, ContactFriction, GapBounds, RollerContact, SlipMode, State};
-use rod_core::{
-    Clamp, Elastica, Grip, PhysicalRod, Pose, Reactions, RodModel, RollerHold, SolveReport, Supports, Units,
-};
+use rod_core::{Clamp, Elastica, Grip, PhysicalRod, Pose, Reactions, RollerHold, SolveReport, Supports, Units};
 
 /// The quality of a configuration: the part of its certificate that comes from the solve and the stability.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +42,7 @@ pub(crate) fn state<R: PhysicalRod>(
     let clamp = setup.clamp(configuration.tau());
     let Pose { x, y, phi } = clamp.pose();
     // what was scanned is this configuration
-    let shape = Elastica::of_segments(rod.model().clone(), rod.units(), scan.segments().iter().copied());
+    let mut shape = Elastica::of_segments(rod.model().clone(), rod.units(), scan.segments().iter().copied());
     let mut contacts = Vec::with_capacity(n);
     for j in 0..n {
         let at = supports.support(j, configuration.t(j));
@@ -70,13 +68,15 @@ pub(crate) fn state<R: PhysicalRod>(
         condition: quality.condition,
         iterations: quality.iterations,
     };
+    let reactions = shape.reactions();
+    let bending_energy = shape.split();
     State {
         pose: Pose { x: x * length, y: y * length, phi },
         contacts,
         leg: 0,
-        reactions: shape.reactions(),
+        reactions,
         roller: roller(setup, configuration),
-        energy: stored_energy(rod, &clamp, &shape),
+        energy: bending_energy + clamp_energy(rod, &clamp, &reactions),
         max_stress: rod.largest_stress(&shape),
         certificate,
     }
@@ -119,18 +119,18 @@ fn friction(
 pub(crate) fn energy<R: PhysicalRod>(setup: &Setup<'_, R>, configuration: &Configuration) -> f64 {
     let supports = configuration.supports(&setup.world);
     let problem = setup.problem(&supports, configuration.tau());
-    stored_energy(&setup.rod, &problem.clamp, &problem.elastica(configuration.of_contacts(), setup.rod.units()))
+    let shape = problem.elastica(configuration.of_contacts(), setup.rod.units());
+    shape.bending_energy() + clamp_energy(&setup.rod, &problem.clamp, &shape.reactions())
 }
 
-/// Energy (J) of a rod of this shape and of its clamp.
-fn stored_energy<R: PhysicalRod, M: RodModel>(rod: &R, clamp: &R::Clamp, shape: &Elastica<M>) -> f64 {
+/// Energy (J) of the clamp of a rod.
+fn clamp_energy<R: PhysicalRod>(rod: &R, clamp: &R::Clamp, reactions: &Reactions) -> f64 {
     if clamp.law().is_none() {
-        return shape.bending_energy();
+        return 0.0;
     }
     let Units { force, moment, energy, .. } = rod.units();
-    let Reactions { f0x, f0y, m0z } = shape.reactions();
-    let of_clamp = clamp.energy(&Reactions { f0x: f0x / force, f0y: f0y / force, m0z: m0z / moment });
-    shape.bending_energy() + of_clamp * energy
+    let Reactions { f0x, f0y, m0z } = reactions;
+    clamp.energy(&Reactions { f0x: f0x / force, f0y: f0y / force, m0z: m0z / moment }) * energy
 }
 
 /// An arc length, at the tip if it is beyond it by rounding. A larger one stays as it is: it shows that the contact set is wrong.

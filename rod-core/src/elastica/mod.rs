@@ -157,10 +157,31 @@ impl<M: RodModel> Elastica<M> {
     /// the sum of |A|, |B| and kappa^2, and no segment is evaluated again.
     pub fn bending_energy(&self) -> f64 {
         let loaded: f64 = self.loaded().map(|(segment, to, end)| self.rod.bending_energy(segment, to, end)).sum();
+        (loaded + self.free_energy()) * self.units.energy
+    }
+
+    /// [`bending_energy`](Self::bending_energy); and cuts the segments where that has to know the rod, so that what is then asked about all of the
+    /// rod has less to find out. Shape and forces stay as they are.
+    pub fn split(&mut self) -> f64 {
+        if self.rod.is_uniform() {
+            return self.bending_energy();
+        }
+        let (mut energy, mut i) = (self.free_energy(), 0);
+        while let [segment, next, ..] = &self.segments[i..] {
+            let mut parts: SmallVec<[Segment<Cut>; 4]> = SmallVec::new();
+            energy += self.rod.bending_energy_by_parts(segment, next.s, &next.start, &mut |part| parts.push(part));
+            let after = i + 1 + parts.len();
+            self.segments.insert_many(i + 1, parts);
+            i = after;
+        }
+        energy * self.units.energy
+    }
+
+    /// Bending energy beyond the last load, dimensionless.
+    fn free_energy(&self) -> f64 {
         let free = self.free();
         // without force and moment nothing is bent but as at rest
-        let free = if free.start.moment == 0.0 { 0.0 } else { self.rod.bending_energy(free, 1.0, &self.cut(1.0)) };
-        (loaded + free) * self.units.energy
+        if free.start.moment == 0.0 { 0.0 } else { self.rod.bending_energy(free, 1.0, &self.cut(1.0)) }
     }
 
     /// Largest |kappa| along the rod, in 1/m for SI units: what bends a wire past its yield stress
@@ -192,6 +213,7 @@ impl<M: RodModel> Elastica<M> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{Cone, Smooth};
     use crate::rod::Rod;
     use proptest::prelude::*;
 
@@ -203,6 +225,21 @@ mod tests {
             Pose { x: 0.01, y: 0.02, phi: 1.4 },
             vec![load(0.3, 3.0, 0.2), load(0.55, -1.0, -1.0), load(0.9, 1.5, 0.7)],
         )
+    }
+
+    #[test]
+    fn cutting_a_rod_changes_neither_shape_nor_energy() {
+        let (units, pose, loads) = scene();
+        let cone = Smooth::new(Cone { taper: 0.5 }).unwrap();
+        let whole = Elastica::of_rod(cone, units, pose, 1e-3, &loads).unwrap();
+        let mut parts = whole.clone();
+        let energy = parts.split();
+        assert!(parts.segments.len() > whole.segments.len() && parts.free() == whole.free());
+        assert!((energy - whole.bending_energy()).abs() < 1e-14 * energy);
+        assert!((parts.bending_energy() - energy).abs() < 1e-12 * energy);
+        for (one, other) in parts.sample(50).zip(whole.sample(50)) {
+            assert!((one.x - other.x).abs() + (one.y - other.y).abs() < 1e-13, "{one:?} {other:?}");
+        }
     }
 
     #[test]

@@ -66,6 +66,17 @@ pub trait RodModel {
     /// The bending energy (E I / L) of a segment that ends at arc length `to` with the cut `end`.
     fn bending_energy(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64;
 
+    /// The same, and shows places of the segment whose cuts it takes to compute it, if any, in order from the start: what is left of the segment there.
+    fn bending_energy_by_parts(
+        &self,
+        segment: &Segment<Cut>,
+        to: f64,
+        end: &Cut,
+        _show: &mut dyn FnMut(Segment<Cut>),
+    ) -> f64 {
+        self.bending_energy(segment, to, end)
+    }
+
     /// The largest |curvature| (1/L) along a segment that ends at arc length `to` with the cut `end`.
     fn largest_curvature(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64;
 
@@ -142,6 +153,15 @@ impl<M: RodModel + ?Sized> RodModel for &M {
     }
     fn bending_energy(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64 {
         (**self).bending_energy(segment, to, end)
+    }
+    fn bending_energy_by_parts(
+        &self,
+        segment: &Segment<Cut>,
+        to: f64,
+        end: &Cut,
+        show: &mut dyn FnMut(Segment<Cut>),
+    ) -> f64 {
+        (**self).bending_energy_by_parts(segment, to, end, show)
     }
     fn largest_curvature(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64 {
         (**self).largest_curvature(segment, to, end)

@@ -295,9 +295,14 @@ impl VaryingRod {
         let diameters = self.diameters.as_ref()?;
         let segments = shape.segments();
         let ends = segments.iter().skip(1).map(|next| (next.s, Some(&next.start))).chain([(1.0, None)]);
-        let all = segments.iter().zip(ends).map(|(segment, end)| diameters.largest_stress(&*self.model, segment, end));
-        let larger = |one: f64, other: f64| if one.is_nan() || other <= one { one } else { other };
-        Some(all.fold(0.0, larger) * self.units().moment)
+        let parts = segments.iter().zip(ends);
+        // what is known of all of them first
+        let starts = parts.clone().filter(|(segment, (to, _))| *to > segment.s);
+        let least = starts.map(|(Segment { s, start, .. }, _)| diameters.stress(*s, start.moment)).fold(0.0, f64::max);
+        let larger = |most: f64, (segment, end)| {
+            if most.is_nan() { most } else { diameters.largest_stress(&*self.model, segment, end, most) }
+        };
+        Some(parts.fold(least, larger) * self.units().moment)
     }
 
     /// Length, m.
@@ -417,6 +422,15 @@ impl RodModel for VaryingRod {
     }
     fn bending_energy(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64 {
         self.model.bending_energy(segment, to, end)
+    }
+    fn bending_energy_by_parts(
+        &self,
+        segment: &Segment<Cut>,
+        to: f64,
+        end: &Cut,
+        show: &mut dyn FnMut(Segment<Cut>),
+    ) -> f64 {
+        self.model.bending_energy_by_parts(segment, to, end, show)
     }
     fn largest_curvature(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64 {
         self.model.largest_curvature(segment, to, end)

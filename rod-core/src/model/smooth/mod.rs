@@ -206,7 +206,17 @@ impl<P: Profile> RodModel for Smooth<P> {
         }
     }
 
-    fn bending_energy(&self, segment: &Segment<Cut>, to: f64, _end: &Cut) -> f64 {
+    fn bending_energy(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64 {
+        self.bending_energy_by_parts(segment, to, end, &mut |_| ())
+    }
+
+    fn bending_energy_by_parts(
+        &self,
+        segment: &Segment<Cut>,
+        to: f64,
+        _end: &Cut,
+        show: &mut dyn FnMut(Segment<Cut>),
+    ) -> f64 {
         let (mut energy, mut cut) = (0.0, segment.start);
         let Segment { s, a, b, .. } = *segment;
         pieces(&self.mesh.joints, s, to, |i, from, to| {
@@ -215,7 +225,12 @@ impl<P: Profile> RodModel for Smooth<P> {
                 energy += part.bending_energy(&Segment { s: from, start: cut, a, b }, to, &end);
                 cut = end;
             } else {
-                cut = self.elements(from, to, &cut, [a, b], |_, element| energy += element.bending_energy());
+                cut = self.elements(from, to, &cut, [a, b], |at, element| {
+                    if at != s {
+                        show(Segment { s: at, start: element.start(), a, b });
+                    }
+                    energy += element.bending_energy();
+                });
             }
         });
         energy
