@@ -9,7 +9,8 @@
 //!
 //! with (Dx, Dy) the way of one end relative to the other: a quadratic form of the ends alone, by the derivatives of the segment.
 //! It is the least value as long as the form is positive for variations that vanish at both ends, which it is where P l^2 < pi^2 EI:
-//! q is at most P, and the least eigenvalue of -(EI eta')' at least EI (pi / l)^2 with the least EI. Behind the
+//! q is at most P, and the least eigenvalue of -(EI eta')' at least EI (pi / l)^2 with the least EI; or, where EI varies, by comparison with
+//! the least EI of each part. Behind the
 //! last contact the least value is zero. So Q > 0 for all variations if, and only if, the sum of these forms and of the contacts' own ones is positive definite in the shifts u_j along
 //! the contour and the turns eta_j: two unknowns a contact. A clamp on springs adds the ways p of its base, with their own p^2 / softness.
 //! A roller counts as the first contact. A contact with friction is held along the contour: there u_j = 0.
