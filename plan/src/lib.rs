@@ -29,7 +29,7 @@ mod touched;
 pub use choice::{Choice, exhaustive, greedy};
 pub use error::PlanError;
 pub use explore::{Abort, ExploreError, Explorer, ExplorerSettings, Finish, Proposal, Purpose, Rectangle, Stage};
-pub use forecast::{Candidate, Forecast, KnownPoint, Plan, PlanSettings, candidates, plan, straight_candidates};
+pub use forecast::{Candidate, Forecast, Gain, KnownPoint, Plan, PlanSettings, candidates, plan, straight_candidates};
 pub use hypothesis::Hypothesis;
 pub use interval_set::IntervalSet;
 pub use outline::Outline;
