@@ -4,11 +4,11 @@ use crate::accuracy_arguments::{Calibrate, Expect};
 use crate::error::Error;
 use crate::reconstruction::{budget, read};
 use crate::{UNFINISHED, read_scene, read_setup, say, scan_of, signals, stopped, warn};
-use rod_files::{OutputError, Recording, Setup, Staged, read_noise, read_uniform_rod};
+use rod_files::{OutputError, Recording, Setup, Staged, Study, read_noise, read_uniform_rod};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use vibrissa::Settings;
-use vibrissa_cli::{BudgetStudy, RodCalibration};
+use vibrissa_cli::{BudgetStudy, RodCalibration, RodComparison};
 
 /// What may be done with a rod that `calibrate` does not take.
 const NOT_CALIBRATED: &str = "`calibrate` takes a uniform, straight rod on a rigid clamp only: `vibrissa reconstruct --rod` takes any rod, without \
@@ -47,7 +47,10 @@ pub fn calibrate(arguments: Calibrate) -> Result<ExitCode, Error> {
 }
 
 pub fn expect(arguments: Expect) -> Result<ExitCode, Error> {
-    let Expect { scene, setup, noise, friction, rate, speed, runs, seed, out } = arguments;
+    if arguments.rods {
+        return compare_rods(arguments);
+    }
+    let Expect { scene, rods: _, sigma: _, setup, noise, friction, rate, speed, runs, seed, out } = arguments;
     signals::end();
     let scene = read_scene(&scene)?;
     let rod = BudgetStudy::rod(&scene)?;
@@ -66,4 +69,23 @@ pub fn expect(arguments: Expect) -> Result<ExitCode, Error> {
     say(&expected.report());
     say(&format!("written to {}\n", out.display()));
     Ok(expected.stop.as_ref().map_or(ExitCode::SUCCESS, |stop| stopped(&expected.scene.name, stop)))
+}
+
+/// The rods of a study, ranked.
+fn compare_rods(arguments: Expect) -> Result<ExitCode, Error> {
+    let Expect { scene: file, sigma, noise, rate, speed, out, .. } = arguments;
+    signals::end();
+    let study = Study::read(&file)?;
+    let name = file.file_stem().unwrap_or(file.as_os_str()).to_string_lossy().into_owned();
+    let out = out.unwrap_or_else(|| Path::new("out").join(&name));
+    let inputs = [file, study.scene.clone()].into_iter().chain(noise.clone()).collect();
+    // without noise there is none: the arguments say so
+    let noise = read_noise(&noise.unwrap_or_default())?;
+    let staged = Staged::new(&out)?.keeping(inputs);
+    let found = RodComparison { name, study, noise, rate, speed, sigma }.run();
+    found.write(&staged)?;
+    staged.publish()?;
+    say(&found.report());
+    say(&format!("written to {}\n", out.display()));
+    Ok(ExitCode::SUCCESS)
 }

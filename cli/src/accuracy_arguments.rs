@@ -1,7 +1,7 @@
 //! Options of the commands about accuracy: `calibrate` and `budget`.
 
 use crate::recording_arguments::{Moved, Written};
-use crate::values::{directory, friction, seed};
+use crate::values::{directory, friction, positive, seed};
 use clap::Args;
 use rod_files::Speed;
 use std::path::PathBuf;
@@ -46,8 +46,14 @@ pub struct Calibrate {
 /// What accuracy to expect of a scene.
 #[derive(Debug, Args)]
 pub struct Expect {
-    /// The scene, a TOML file; its step is not used
+    /// The scene, a TOML file; its step is not used. With --rods a study, whose scenes differ in their rods
     pub scene: PathBuf,
+    /// Compare the rods of a study: the table ranks its scenes by the standard deviation that the noise alone leaves, for rods of all kinds
+    #[arg(long, requires = "noise", conflicts_with_all = ["setup", "friction", "runs", "seed"])]
+    pub rods: bool,
+    /// With --rods the standard deviation that is asked for, m
+    #[arg(long, value_name = "M", default_value = "1e-4", requires = "rods", value_parser = positive)]
+    pub sigma: f64,
     /// Size of the systematic errors, the table [errors] of a TOML file [default: an ordinary laboratory]
     #[arg(long, value_name = "FILE")]
     pub setup: Option<PathBuf>,

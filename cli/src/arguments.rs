@@ -64,7 +64,10 @@ Forecast the accuracy of a reconstruction, by source of error, before and after 
 
 Simulates the recording of the scene. From derivatives of the contact points with respect to each systematic error it computes
 the standard deviation across the contour, before any correction and after the scan has calibrated itself. Then it draws
-all errors from the budget, adds them to the recording and reconstructs it, --runs times. Writes budget.json and budget.svg.";
+all errors from the budget, adds them to the recording and reconstructs it, --runs times. Writes budget.json and budget.svg.
+
+With --rods it compares the scenes of a study, which differ in their rods, by the noise alone: the standard deviation across the contour, the
+noise that is needed for the one of --sigma, and the largest stress. Writes rods.csv and rods.json.";
 
 const ELASTICA: &str = "\
 Find the equilibria of a rod without contacts: cantilevers, columns that buckle, rods between two clamps.

@@ -115,6 +115,7 @@ pub const BUDGET: &str = "\
 Examples:
   vibrissa budget scene.toml --rate 100
   vibrissa budget scene.toml --setup sensor.toml --noise noise.toml --runs 100
+  vibrissa budget rods.toml --rods --noise noise.toml --sigma 1e-5
 
 Next: state your own errors in the table [errors] of sensor.toml (docs/laboratory.md), and see which one matters.";
 

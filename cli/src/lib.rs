@@ -18,7 +18,7 @@ mod results;
 mod sample;
 mod shapes;
 
-pub use budget::{BudgetError, BudgetStudy, Expected};
+pub use budget::{BudgetError, BudgetStudy, ComparedRods, Expected, RodComparison};
 pub use calibrate::{CalibrateError, Freed, RodCalibration};
 pub use fake_sensor::{FakeError, FakeProtocol, FakeScan, Played};
 pub use figure::FigureError;

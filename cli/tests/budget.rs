@@ -149,3 +149,48 @@ fn bad_input_is_named() {
         assert!(complaint.contains(message), "{arguments:?}: {complaint}");
     }
 }
+
+/// Two rods in the order of their standard deviations, which are those of reconstructions of their recordings.
+#[test]
+fn rods_are_ranked_by_the_precision_that_their_recordings_have() {
+    let directory = directory();
+    let study = "scene = \"scene.toml\"\n[[parameter]]\nname = \"length\"\nvalues = [0.1, 0.08]\n\
+                 set = [{ field = \"rod.length\" }]\n";
+    fs::write(directory.path().join("rods.toml"), study).unwrap();
+    fs::write(directory.path().join("noise.toml"), "white = { force = 2.5e-3, m0z = 6e-5 }\n").unwrap();
+    let noise = ["--noise", "noise.toml", "--speed", "10 mm/s"];
+    let compared = [&["budget", "rods.toml", "--rods", "--sigma", "1e-5", "--out", "rods"], noise.as_slice()].concat();
+    let output = vibrissa(directory.path(), &compared);
+    assert_eq!(output.status.code(), Some(0), "{}", complaint(&output));
+    let mut table = csv::Reader::from_path(directory.path().join("rods/rods.csv")).unwrap();
+    let head = table.headers().unwrap().clone();
+    let rows: Vec<csv::StringRecord> = table.records().collect::<Result<_, _>>().unwrap();
+    let cell = |row: &csv::StringRecord, name: &str| -> f64 {
+        row[head.iter().position(|one| one == name).unwrap()].parse().unwrap()
+    };
+    assert_eq!(rows.len(), 2);
+    assert!(cell(&rows[0], "sigma") < cell(&rows[1], "sigma"));
+    for row in &rows {
+        let number = row[0].to_owned();
+        assert!(cell(row, "largest_stress") > 1e8 && cell(row, "touched") > 0.02);
+        // a rod that is more exact than asked for bears more noise
+        let factor = cell(row, "noise_factor");
+        assert!((factor > 1.0) == (cell(row, "sigma") < 1e-5), "{row:?}");
+        let scene = vibrissa(directory.path(), &["study", "rods.toml", "--scene", &number]);
+        fs::write(directory.path().join("own.toml"), &scene.stdout).unwrap();
+        let simulate = [&["simulate", "own.toml", "--file", "recording.csv"], noise.as_slice()].concat();
+        assert!(vibrissa(directory.path(), &simulate).status.success());
+        let found =
+            ["reconstruct", "recording.csv", "--rod", "own.toml", "--as-is", "--noise", "noise.toml", "--out", "found"];
+        assert!(vibrissa(directory.path(), &found).status.success());
+        let mut sigmas: Vec<f64> = rod_files::read_known_contours(&directory.path().join("found"))
+            .unwrap()
+            .iter()
+            .flat_map(|one| &one.known)
+            .filter_map(|known| known.sigma())
+            .collect();
+        sigmas.sort_by(f64::total_cmp);
+        let ratio = cell(row, "sigma") / sigmas[sigmas.len() / 2];
+        assert!((0.7..=1.4).contains(&ratio), "{number}: {ratio}");
+    }
+}

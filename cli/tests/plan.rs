@@ -117,7 +117,7 @@ fn scans_are_chosen_and_their_precision_is_that_of_a_recording() {
     assert_eq!(record["stress_limit"], 1.2e9);
     let mut table = csv::Reader::from_path(out.join("candidates.csv")).unwrap();
     let headers = table.headers().unwrap().clone();
-    assert_eq!(headers.len(), 18);
+    assert_eq!(headers.len(), 19);
     let rows: Vec<csv::StringRecord> = table.records().collect::<Result<_, _>>().unwrap();
     let column = |name: &str| headers.iter().position(|one| one == name).unwrap();
     assert_eq!(rows.len(), 14);

@@ -30,14 +30,16 @@ pub struct PlanSettings {
     pub seed: u64,
     /// Speed of the clamp, m/s.
     pub speed: f64,
+    /// Largest bending stress of a scan, Pa; none for any.
+    pub most_stress: Option<f64>,
     /// The sensor, and the contour that will be fitted; without it no standard deviations are predicted.
     pub measurement: Option<Measurement>,
 }
 
 impl Default for PlanSettings {
-    /// 16 hypotheses, and 1 mm/s.
+    /// 16 hypotheses, 1 mm/s, and any stress.
     fn default() -> Self {
-        Self { hypotheses: 16, seed: 0, speed: 1e-3, measurement: None }
+        Self { hypotheses: 16, seed: 0, speed: 1e-3, most_stress: None, measurement: None }
     }
 }
 
@@ -68,26 +70,35 @@ impl fmt::Debug for Candidate {
 pub struct Forecast {
     /// The scan.
     pub candidate: Candidate,
-    /// Mean length of the contour that is touched and was not before, m.
-    pub gain: f64,
-    /// Its standard deviation over the hypotheses, m.
-    pub gain_sigma: f64,
-    /// Mean length of the contour that is touched at all, m.
-    pub touched: f64,
+    /// What it adds; none where it is ruled out: in a hypothesis the clamp runs into the object, or the rod bends beyond the largest stress.
+    pub gain: Option<Gain>,
+    /// Hypotheses that were swept: all of them, or those up to the one that rules it out.
+    pub swept: usize,
     /// Time of the scan at the speed of the settings, s.
     pub time: f64,
-    /// Largest bending stress over all hypotheses, Pa; none where the diameter of the rod is not known.
+    /// Largest bending stress over the hypotheses that were swept, Pa; none where the diameter of the rod is not known.
     pub largest_stress: Option<f64>,
-    /// Largest moment at the clamp over all hypotheses, N m.
+    /// Largest moment at the clamp over them, N m.
     pub largest_moment: f64,
-    /// Largest force at the clamp over all hypotheses, N.
+    /// Largest force at the clamp over them, N.
     pub largest_force: f64,
-    /// Share of the hypotheses in which the clamp runs into the object.
-    pub blocked: f64,
-    /// Predicted standard deviations along the most plausible object; empty without a measurement.
+    /// Whether the clamp runs into the object in one of them.
+    pub is_blocked: bool,
+    /// Predicted standard deviations along the most plausible object; empty without a measurement, or where the scan is ruled out.
     pub sigmas: Vec<PlaceSigma>,
-    /// The points touched before, and how certain they get; empty without a measurement.
+    /// The points touched before, and how certain they get; empty as the standard deviations.
     pub known: Vec<KnownPoint>,
+}
+
+/// Length of the contour that a scan adds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gain {
+    /// Mean length that is touched and was not before, m.
+    pub mean: f64,
+    /// Its standard deviation over the hypotheses, m.
+    pub sigma: f64,
+    /// Mean length that is touched at all, m.
+    pub touched: f64,
 }
 
 /// A point that was touched before.
@@ -120,7 +131,7 @@ pub struct Plan {
     pub hypotheses: Vec<Hypothesis>,
     /// The candidates in the given order; fewer where the work was ended early.
     pub forecasts: Vec<Forecast>,
-    /// What each candidate newly touches of each object of each hypothesis.
+    /// What each candidate newly touches of each object of each hypothesis; nothing of one that is ruled out.
     new: Vec<Vec<Vec<IntervalSet>>>,
 }
 
@@ -130,7 +141,8 @@ impl Plan {
         let of_hypothesis = |hypothesis: usize| {
             let of_object = |object: usize| {
                 let mut union = IntervalSet::default();
-                taken.iter().for_each(|candidate| union.extend(&self.new[*candidate][hypothesis][object]));
+                let new = taken.iter().filter_map(|candidate| self.new[*candidate].get(hypothesis)?.get(object));
+                new.for_each(|new| union.extend(new));
                 union.length()
             };
             (0..self.hypotheses[hypothesis].objects.len()).map(of_object).sum::<f64>()
@@ -150,28 +162,25 @@ impl Plan {
     }
 
     /// Up to `count` candidates that together newly touch most, taken one after the other: at least 0.632 of the most that so many can
-    /// ([`greedy`]). None of them runs into the object in a hypothesis, or exceeds the stress (Pa).
-    pub fn greedy(&self, count: usize, most_stress: Option<f64>) -> Vec<Choice> {
-        let allowed = self.allowed(most_stress);
+    /// ([`greedy`]). None of them is ruled out.
+    pub fn greedy(&self, count: usize) -> Vec<Choice> {
+        let allowed = self.allowed();
         let own = |taken: &[usize]| taken.iter().map(|k| allowed[*k]).collect::<Vec<_>>();
         let choices = greedy(allowed.len(), count, |taken| self.value(&own(taken)));
         choices.into_iter().map(|choice| Choice { candidate: allowed[choice.candidate], ..choice }).collect()
     }
 
     /// The best set of at most `count` candidates by trying all of them, and its value.
-    pub fn best(&self, count: usize, most_stress: Option<f64>) -> (Vec<usize>, f64) {
-        let allowed = self.allowed(most_stress);
+    pub fn best(&self, count: usize) -> (Vec<usize>, f64) {
+        let allowed = self.allowed();
         let own = |taken: &[usize]| taken.iter().map(|k| allowed[*k]).collect::<Vec<_>>();
         let (taken, value) = exhaustive(allowed.len(), count, &|taken: &[usize]| self.value(&own(taken)));
         (own(&taken), value)
     }
 
-    pub(crate) fn allowed(&self, most_stress: Option<f64>) -> Vec<usize> {
-        let holds = |forecast: &Forecast| {
-            let stress = forecast.largest_stress.zip(most_stress);
-            forecast.blocked == 0.0 && stress.is_none_or(|(stress, most)| stress <= most)
-        };
-        (0..self.forecasts.len()).filter(|k| holds(&self.forecasts[*k])).collect()
+    /// The candidates that are not ruled out.
+    pub(crate) fn allowed(&self) -> Vec<usize> {
+        (0..self.forecasts.len()).filter(|k| self.forecasts[*k].gain.is_some()).collect()
     }
 }
 
@@ -268,22 +277,22 @@ pub fn plan<R: PhysicalRod + Sync>(
         return Err(PlanError::Empty { what: "candidates" });
     }
     let hypotheses = hypotheses(known, rod.units().length, settings, &|_| true)?;
-    plan_of(rod, known, hypotheses, candidates, (settings, None), goes_on)
+    plan_of(rod, known, hypotheses, candidates, settings, goes_on)
 }
 
-/// [`plan`] with these objects. A candidate that is blocked or bends the rod beyond `most_stress` (Pa) in a hypothesis is judged no further: its gain is not known.
+/// [`plan`] with these objects.
 pub(crate) fn plan_of<R: PhysicalRod + Sync>(
     rod: &R,
     known: &[FittedObject],
     hypotheses: Vec<Hypothesis>,
     candidates: &[Candidate],
-    (settings, most_stress): (&PlanSettings, Option<f64>),
+    settings: &PlanSettings,
     goes_on: &(impl Fn(usize) -> bool + Sync),
 ) -> Result<Plan, PlanError> {
     let places = hypotheses.first().map_or_else(Vec::new, |one| known_places(known, one));
     let progress = Progress::new(goes_on);
     let one = |candidate: &Candidate| {
-        let found = forecast(rod, &places, &hypotheses, candidate.clone(), (settings, most_stress), &progress);
+        let found = forecast(rod, &places, &hypotheses, candidate.clone(), settings, &progress);
         (found, progress.count())
     };
     let found = candidates.par_iter().map(one).take_any_while(|(_, goes_on)| *goes_on).map(|(found, _)| found);
@@ -291,62 +300,64 @@ pub(crate) fn plan_of<R: PhysicalRod + Sync>(
     Ok(Plan { hypotheses, forecasts, new })
 }
 
+/// What one candidate brings, and what it newly touches of each object of each hypothesis. The first hypothesis that rules it out is the last one that is swept.
 fn forecast<R: PhysicalRod>(
     rod: &R,
     known_places: &[KnownPlace],
     hypotheses: &[Hypothesis],
     candidate: Candidate,
-    (settings, most_stress): (&PlanSettings, Option<f64>),
+    settings: &PlanSettings,
     progress: &Progress<'_>,
 ) -> Result<(Forecast, Vec<Vec<IntervalSet>>), PlanError> {
     let path = candidate.path.clone();
-    let (mut new, mut gains, mut touched) = (Vec::new(), Vec::new(), 0.0);
+    let (mut new, mut gains, mut touched, mut plausible) = (Vec::new(), Vec::new(), 0.0, Vec::new());
     let mut forecast = Forecast {
         candidate,
-        gain: 0.0,
-        gain_sigma: 0.0,
-        touched: 0.0,
+        gain: None,
+        swept: 0,
         time: path.length() / settings.speed,
         largest_stress: None,
         largest_moment: 0.0,
         largest_force: 0.0,
-        blocked: 0.0,
+        is_blocked: false,
         sigmas: Vec::new(),
         known: Vec::new(),
     };
-    let count = hypotheses.len() as f64;
-    for (number, hypothesis) in hypotheses.iter().enumerate() {
-        let Hypothesis { objects, outlines, touched: before } = hypothesis;
+    for (number, Hypothesis { objects, outlines, touched: before }) in hypotheses.iter().enumerate() {
         // only of the most plausible object are the states themselves of use
         let step = if number == 0 { scanned::STEP } else { COARSE } * rod.units().length;
-        let computation = Computation { step, most_steps: Some(MOST_STEPS), most_stress };
+        let computation = Computation { step, most_steps: Some(MOST_STEPS), most_stress: settings.most_stress };
         let (found, states) = Scanned::of(rod, objects, outlines, &path, computation, progress)?;
-        let all: Vec<IntervalSet> = (0..objects.len()).map(|object| found.touched.all(object)).collect();
-        let fresh: Vec<IntervalSet> = all.iter().zip(before).map(|(all, before)| all.without(before)).collect();
-        gains.push(fresh.iter().map(IntervalSet::length).sum::<f64>());
-        touched += all.iter().map(IntervalSet::length).sum::<f64>();
-        new.push(fresh);
+        forecast.swept += 1;
         forecast.largest_moment = forecast.largest_moment.max(found.largest_moment);
         forecast.largest_force = forecast.largest_force.max(found.largest_force);
         forecast.largest_stress = match (forecast.largest_stress, found.largest_stress) {
             (Some(one), Some(other)) => Some(one.max(other)),
             (one, other) => one.or(other),
         };
-        let is_beyond = found.is_beyond(most_stress);
-        let is_blocked = found.stop.is_some_and(|stop| stop.reason == StopReason::ClampInside);
-        forecast.blocked += f64::from(u8::from(is_blocked)) / count;
-        if is_beyond || (most_stress.is_some() && is_blocked) {
-            break;
+        let is_beyond = found.is_beyond(settings.most_stress);
+        forecast.is_blocked = found.stop.is_some_and(|stop| stop.reason == StopReason::ClampInside);
+        if is_beyond || forecast.is_blocked {
+            return Ok((forecast, Vec::new()));
         }
-        if let (0, Some(measurement)) = (number, &settings.measurement) {
-            forecast.sigmas = predicted(rod, objects, outlines, &states, path.length(), measurement);
-            forecast.known = known_points(known_places, &forecast.sigmas, measurement);
+        let all: Vec<IntervalSet> = (0..objects.len()).map(|object| found.touched.all(object)).collect();
+        let fresh: Vec<IntervalSet> = all.iter().zip(before).map(|(all, before)| all.without(before)).collect();
+        gains.push(fresh.iter().map(IntervalSet::length).sum::<f64>());
+        touched += all.iter().map(IntervalSet::length).sum::<f64>();
+        new.push(fresh);
+        if number == 0 {
+            plausible = states;
         }
     }
-    forecast.touched = touched / count;
-    forecast.gain = gains.iter().sum::<f64>() / count;
-    let square: f64 = gains.iter().map(|gain| (gain - forecast.gain).powi(2)).sum();
-    forecast.gain_sigma = (square / (count - 1.0).max(1.0)).sqrt();
+    if let (Some(Hypothesis { objects, outlines, .. }), Some(measurement)) = (hypotheses.first(), &settings.measurement)
+    {
+        forecast.sigmas = predicted(rod, objects, outlines, &plausible, path.length(), measurement);
+        forecast.known = known_points(known_places, &forecast.sigmas, measurement);
+    }
+    let count = hypotheses.len() as f64;
+    let mean = gains.iter().sum::<f64>() / count;
+    let square: f64 = gains.iter().map(|gain| (gain - mean).powi(2)).sum();
+    forecast.gain = Some(Gain { mean, sigma: (square / (count - 1.0).max(1.0)).sqrt(), touched: touched / count });
     Ok((forecast, new))
 }
 

@@ -55,12 +55,12 @@ impl Hypothesis {
     ) -> Vec<Self> {
         let middle =
             |contours: &[Joined]| Self::of(contours, length, &mut |curvatures| median(curvatures), &mut || 0.0, may_be);
-        let whole = joined(contours, length);
+        let whole = joined(contours, 1.0, length);
         let (contours, middle) = match middle(&whole) {
             Some(found) => (whole, Some(found)),
             None => {
                 // bounded stretches of two scans overlap, so that the contour would cross itself
-                let touched = joined(&contours.iter().flat_map(touched_runs).collect::<Vec<_>>(), length);
+                let touched = joined(&contours.iter().flat_map(touched_runs).collect::<Vec<_>>(), 1.0, length);
                 let found = middle(&touched);
                 (touched, found)
             }

@@ -5,6 +5,7 @@
 //! - [`StraightScan`]: a scan by its distance and angle. [`reach`]: what the scans of a grid touch, on all cores.
 //! - [`plan`]: from what is known of a contour ([`FittedObject`](rod_reconstruct::FittedObject)), what each of some candidate scans is expected to add, its precision, time and load;
 //!   [`Plan::greedy`] takes several of them.
+//! - [`KnownScan`]: how exactly one scan of a known object determines its contour, for the choice of rod and sensor.
 //!
 //! - [`Explorer`]: proposes scans, takes what was measured on them, and proposes the next ones, until nothing is left to find.
 //!
@@ -12,6 +13,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, clippy::panic))]
 
 mod choice;
+mod design;
 mod error;
 mod explore;
 mod forecast;
@@ -27,9 +29,10 @@ mod support;
 mod touched;
 
 pub use choice::{Choice, exhaustive, greedy};
+pub use design::KnownScan;
 pub use error::PlanError;
 pub use explore::{Abort, ExploreError, Explorer, ExplorerSettings, Finish, Proposal, Purpose, Rectangle, Stage};
-pub use forecast::{Candidate, Forecast, KnownPoint, Plan, PlanSettings, candidates, plan, straight_candidates};
+pub use forecast::{Candidate, Forecast, Gain, KnownPoint, Plan, PlanSettings, candidates, plan, straight_candidates};
 pub use hypothesis::Hypothesis;
 pub use interval_set::IntervalSet;
 pub use outline::Outline;

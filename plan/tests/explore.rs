@@ -166,8 +166,17 @@ fn explore(object: &Composite, settings: ExplorerSettings, seed: u64, truth: &Tr
     {
         let (samples, stress, is_aborted) =
             measure(object, proposal.path, proposal.abort, spacing, 100 * seed + found.scans as u64);
+        let proposed = begin.elapsed();
         explorer.update(&samples).unwrap();
         found.scans += 1;
+        if std::env::var("VERBOSE").is_ok() {
+            eprintln!(
+                "  {} fit {:.1} s, all so far {:.1} s",
+                found.scans,
+                (begin.elapsed() - proposed).as_secs_f64(),
+                begin.elapsed().as_secs_f64()
+            );
+        }
         found.way += proposal.path.length();
         found.share = Share::of(explorer.known(), sigma, object, truth);
         if found.share.precise >= ENOUGH {
@@ -194,7 +203,7 @@ fn explore(object: &Composite, settings: ExplorerSettings, seed: u64, truth: &Tr
                         scan.distance / LENGTH,
                         scan.pass,
                         value / LENGTH,
-                        forecast.gain / LENGTH,
+                        forecast.gain.unwrap().mean / LENGTH,
                         forecast.largest_stress.unwrap() / 1e6,
                         stress / 1e6,
                         found.ratios.last(),

@@ -27,8 +27,9 @@ class Plan:
         ``angle`` (rad), ``distance`` (m), ``pass`` (``left`` or ``right``); the path of the clamp from ``x_from``, ``y_from`` to ``x_to``, ``y_to``
         (m); ``gain``: expected length of the contour that it touches and that was not touched before, with its standard deviation over the hypotheses,
         ``gain_sigma``, and ``touched``, the length touched at all (m); ``time`` (s), ``largest_moment`` (N m), ``largest_stress`` (Pa, or NaN);
-        ``blocked``: share of the hypotheses in which the clamp runs into the object; ``sigma``: median of the predicted standard deviations
-        (m); ``known_sigma_after``: median at the points touched before, with this scan (m). The last two are NaN without ``noise``.
+        ``blocked``: whether the clamp runs into the object in a hypothesis; ``swept``: hypotheses that were swept; ``sigma``: median of the
+        predicted standard deviations (m); ``known_sigma_after``: median at the points touched before, with this scan (m). The last two are NaN without
+        ``noise``. A scan that is blocked, or beyond the largest stress, is ruled out: it is swept no further, its gains and standard deviations are NaN.
     hypotheses : list of numpy.ndarray
         Objects that agree with what is known, the most plausible one first: points x, y (m) of each outline, of shape (n, 2).
     """

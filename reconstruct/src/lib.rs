@@ -77,7 +77,7 @@ pub use frames::{
     FrameVerdict, HiddenBase, Measurand, PolePrior, RestError, RestShape, SeenPoint, forces, rest_shape,
 };
 #[cfg(feature = "std")]
-pub use friction::{Friction, FrictionAlone, FrictionEstimate, Pair, without_friction};
+pub use friction::{Friction, FrictionAlone, FrictionEstimate};
 #[cfg(feature = "std")]
 pub use merge::{Comparison, Disagreement, Offset, align, merge};
 pub use numeric::Number;

@@ -2,17 +2,20 @@
 //!
 //! `truth` is the scene as a perfect sensor records it. `forecast` says by derivatives how far each source of error displaces contact
 //! points, before and after a scan calibrates itself, and `needed` scales that to another sensor. `trials` draws errors, puts them on the
-//! samples and reconstructs. `files` writes the results, `report` tells them.
+//! samples and reconstructs. `files` writes the results, `report` tells them. `rods` compares rods
+//! by the noise alone.
 
 mod files;
 mod forecast;
 mod needed;
 mod report;
+mod rods;
 mod study;
 mod trials;
 mod truth;
 
 pub(crate) use forecast::Forecast;
+pub use rods::{ComparedRods, RodComparison};
 pub use study::{BudgetStudy, Expected};
 
 use rod_files::{SceneError, SimulationError};

@@ -1,14 +1,13 @@
 //! A look at files of unknown layout: what they hold, what must be mended, and the command that reads them.
 //!
 //! `look` describes one file: `layout` how it is written, `rows` its times and cells, `unnamed` columns whose names say too little, `motion` the path of the clamp, `binary` files of
-//! other programs, `tracked` those of trackers of video. `physics` finds axes, signs and units (`frame`, `agreement`, `energy`), `clock` the delay of a stage's clock, which must not let reactions change while the clamp is `standing`. `commands` puts files together and tries the readers with
+//! other programs, `tracked` those of trackers of video. `physics` finds axes, signs and units (`frame`, `agreement`), `clock` the delay of a stage's clock, which must not let reactions change while the clamp is `standing`. `commands` puts files together and tries the readers with
 //! the options of `proposal` and the `setup_text`. `shell_word` quotes words of commands.
 
 mod agreement;
 mod binary;
 mod clock;
 mod commands;
-mod energy;
 mod frame;
 mod layout;
 mod look;

@@ -5,10 +5,10 @@ use crate::output::{pretty_json, write_csv};
 use crate::{OutputError, Staged};
 use serde::Serialize;
 use vibrissa::Pose;
-use vibrissa::plan::{Forecast, StraightScan};
+use vibrissa::plan::{Forecast, Gain, StraightScan};
 
 /// Columns of candidates.csv.
-const CANDIDATES: [&str; 18] = [
+const CANDIDATES: [&str; 19] = [
     "candidate",
     "chosen",
     "angle",
@@ -25,6 +25,7 @@ const CANDIDATES: [&str; 18] = [
     "largest_moment",
     "largest_stress",
     "blocked",
+    "swept",
     "sigma",
     "known_sigma_after",
 ];
@@ -42,20 +43,18 @@ pub struct PlannedScan {
     pub from: Pose,
     /// Last pose of the clamp.
     pub to: Pose,
-    /// Mean length of the contour that it newly touches, m.
-    pub gain: f64,
-    /// Standard deviation of that over the hypotheses, m.
-    pub gain_sigma: f64,
-    /// Mean length of the contour that it touches at all, m.
-    pub touched: f64,
+    /// Length of the contour that it adds; none where it is ruled out.
+    pub gain: Option<Gain>,
     /// s
     pub time: f64,
     /// Largest moment at the clamp, N m.
     pub largest_moment: f64,
     /// Largest bending stress, Pa; none where the diameter of the rod is not known.
     pub largest_stress: Option<f64>,
-    /// Share of the hypotheses in which the clamp runs into the object.
-    pub blocked: f64,
+    /// Whether the clamp runs into the object in a hypothesis.
+    pub is_blocked: bool,
+    /// Hypotheses that were swept: all, or those up to the one that rules it out.
+    pub swept: usize,
     /// Median of the predicted standard deviations, m; none without noise.
     pub sigma: Option<f64>,
     /// Median standard deviation at the points touched before, with this scan, m; none without noise.
@@ -76,8 +75,8 @@ impl PlannedScan {
                 scan.map(|scan| scan.pass.to_string()),
             ),
             (from.x, from.y, to.x, to.y),
-            (self.gain, self.gain_sigma, self.touched, self.time),
-            (self.largest_moment, self.largest_stress, self.blocked),
+            (self.gain.map(|gain| gain.mean), self.gain.map(|gain| gain.sigma), self.gain.map(|gain| gain.touched)),
+            (self.time, self.largest_moment, self.largest_stress, self.is_blocked, self.swept),
             (self.sigma, self.known_sigma_after),
         )
     }
@@ -142,12 +141,11 @@ impl Planned {
             from,
             to,
             gain: forecast.gain,
-            gain_sigma: forecast.gain_sigma,
-            touched: forecast.touched,
             time: forecast.time,
             largest_moment: forecast.largest_moment,
             largest_stress: forecast.largest_stress,
-            blocked: forecast.blocked,
+            is_blocked: forecast.is_blocked,
+            swept: forecast.swept,
             sigma: median_sigma(forecast),
             known_sigma_after: forecast.known_sigma().map(|sigma| sigma[1]),
         }

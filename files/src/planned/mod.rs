@@ -142,6 +142,7 @@ impl Planned {
             hypotheses: request.hypotheses,
             seed: request.seed,
             speed: request.speed,
+            most_stress,
             measurement: request
                 .noise
                 .as_ref()
@@ -155,14 +156,15 @@ impl Planned {
             interrupt.pass(done as f64 / candidates.len() as f64);
             goes_on()
         })?;
-        let choices = plan.greedy(request.count, most_stress);
+        let choices = plan.greedy(request.count);
         Ok(Self { name: name.to_owned(), known, candidates: candidates.len(), most_stress, plan, choices })
     }
 
-    /// The candidates, best gain first.
+    /// The candidates, best gain first; those that are ruled out are the last.
     pub fn ranked(&self) -> Vec<(usize, &Forecast)> {
         let mut ranked: Vec<(usize, &Forecast)> = self.plan.forecasts.iter().enumerate().collect();
-        ranked.sort_by(|one, other| other.1.gain.total_cmp(&one.1.gain));
+        let gain = |forecast: &Forecast| forecast.gain.map_or(f64::NEG_INFINITY, |gain| gain.mean);
+        ranked.sort_by(|one, other| gain(other.1).total_cmp(&gain(one.1)));
         ranked
     }
 }

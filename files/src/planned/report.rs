@@ -4,6 +4,7 @@ use super::Planned;
 use super::direction_degrees;
 use super::files::median_sigma;
 use std::fmt::Write;
+use vibrissa::plan::Forecast;
 
 impl Planned {
     /// The report, lengths in mm.
@@ -21,6 +22,15 @@ impl Planned {
             (Some(limit), _) => writeln!(text, "largest stress: {:.0} MPa", 1e-6 * limit)?,
             (None, true) => writeln!(text, "warning: no largest stress: whether the rod yields is not checked")?,
             (None, false) => writeln!(text, "the rod has no diameter: whether it yields is not known")?,
+        }
+        let is_ruled_out = |forecast: &&Forecast| forecast.gain.is_none();
+        let ruled_out = self.plan.forecasts.iter().filter(is_ruled_out).count();
+        if ruled_out > 0 {
+            let blocked = self.plan.forecasts.iter().filter(|forecast| forecast.is_blocked).count();
+            writeln!(
+                text,
+                "ruled out: {ruled_out} scans, {blocked} of them because the clamp may run into the object, the others by the stress"
+            )?;
         }
         for (place, choice) in self.choices.iter().enumerate() {
             let forecast = &self.plan.forecasts[choice.candidate];

@@ -1,13 +1,12 @@
 //! Recordings: what a clamp felt along its way, read from a table of text or from what a sensor sent.
 //!
-//! The library reads the table. `columns` finds the columns by name, `row` reads one row, `read` puts them together. `warnings` says what is wrong with single rows. A row that
+//! The library reads the table. `columns` finds the columns by name, `row` reads one row, `read` puts them together. `error` says what is wrong with files and single rows. A row that
 //! cannot be used keeps its `place`.
 
 mod columns;
 mod error;
 mod read;
 mod row;
-mod warnings;
 
 pub use error::RecordingError;
 pub use row::{Place, RowFault, RowProblem};

@@ -1,7 +1,6 @@
 //! The scenes of a study.
 
-use super::document::StudyDocument;
-use super::error::StudyError;
+use super::document::{StudyDocument, StudyError};
 use super::parameter::Parameter;
 use super::row::StudyRow;
 use crate::toml_file::{self, Fault};

@@ -5,7 +5,6 @@
 //! broken off goes on where it was.
 
 mod document;
-mod error;
 mod field;
 mod grid;
 mod parameter;
@@ -13,7 +12,7 @@ mod row;
 mod run;
 mod touched;
 
-pub use error::StudyError;
+pub use document::StudyError;
 pub use grid::Study;
 pub use row::{Measured, StudyRow};
 pub use run::StudyRun;

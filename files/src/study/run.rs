@@ -1,6 +1,6 @@
 //! The rows of a study in files.
 
-use super::error::StudyError;
+use super::document::StudyError;
 use super::grid::Study;
 use super::row::StudyRow;
 use crate::output::{csv_writer, pretty_json};

@@ -35,8 +35,8 @@ pub(super) fn best_scan(
     if safe.is_empty() {
         return Ok(None);
     }
-    let plan = plan_of(rod, &chains, hypotheses, &safe, (&plan_settings, Some(settings.largest_stress)), &|_| true)?;
-    let allowed = plan.allowed(Some(settings.largest_stress));
+    let plan = plan_of(rod, &chains, hypotheses, &safe, &plan_settings, &|_| true)?;
+    let allowed = plan.allowed();
     let worth = |taken: &[usize]| plan.value(taken) + plan.improved(taken, settings.sigma);
     let own = |taken: &[usize]| taken.iter().map(|k| allowed[*k]).collect::<Vec<_>>();
     let (ahead, _) = exhaustive(allowed.len(), AHEAD, &|taken: &[usize]| worth(&own(taken)));
@@ -67,6 +67,7 @@ fn plan_settings(rod: &Rod, settings: &ExplorerSettings, known: &[FittedObject])
         hypotheses: settings.hypotheses,
         seed: settings.seed,
         speed: settings.speed,
+        most_stress: Some(settings.largest_stress),
         measurement: Some(Measurement::of(&settings.noise, settings.spacing, known, rod.length())),
     }
 }

@@ -29,7 +29,7 @@ struct Place {
 /// The contours of some scans as one set of chains; `length` is that of the rod, m.
 pub(super) fn fused(scans: &[Vec<FittedObject>], length: f64) -> Vec<FittedObject> {
     let chains = scans.iter().fold(Vec::new(), |known, scan| with_scan(&known, scan, length));
-    joined(&chains, NEXT * length).into_iter().map(|joined| joined.contour).collect()
+    joined(&chains, NEXT, length).into_iter().map(|joined| joined.contour).collect()
 }
 
 fn with_scan(known: &[FittedObject], scan: &[FittedObject], length: f64) -> Vec<FittedObject> {

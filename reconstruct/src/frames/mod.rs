@@ -11,7 +11,6 @@ mod candidate;
 mod check;
 mod choose;
 mod ends;
-mod family;
 mod fault;
 mod forces;
 mod judge;

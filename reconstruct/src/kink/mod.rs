@@ -30,12 +30,9 @@ mod filter;
 mod find;
 mod free_knot;
 mod level;
-mod options;
 mod scale;
 mod search;
-mod transition;
 
 pub use filter::KinkFilter;
-pub use find::find_kinks;
-pub use options::KinkOptions;
-pub use transition::{Kink, KinkKind};
+pub use find::{Kink, KinkKind, find_kinks};
+pub use scale::KinkOptions;

@@ -1,6 +1,20 @@
-//! The lengths of windows.
+//! Settings of the search for kinks, and the lengths of its windows.
 
-use super::options::KinkOptions;
+/// Settings of the search for kinks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KinkOptions {
+    /// Upper bound of the expected number of false alarms in a recording of smooth signals and noise.
+    pub false_alarms: f64,
+    /// Longest half-window, in units of the path parameter.
+    pub widest: f64,
+}
+
+impl Default for KinkOptions {
+    /// 0.1 false alarms and half-windows up to 0.08, lengths of the rod.
+    fn default() -> Self {
+        Self { false_alarms: 0.1, widest: 0.08 }
+    }
+}
 
 /// Half-windows in bins at the finest level, and at the others.
 const FINEST: [usize; 4] = [4, 6, 8, 12];

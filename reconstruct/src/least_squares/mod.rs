@@ -7,12 +7,10 @@
 
 mod equations;
 mod iterate;
-mod loss;
 mod problem;
 mod step_control;
 
 pub(crate) use equations::{Equations, NormalMatrix, Rows};
 pub(crate) use iterate::{Status, iterate};
-pub(crate) use loss::Loss;
-pub(crate) use problem::{Iterate, Problem};
+pub(crate) use problem::{Iterate, Loss, Problem};
 pub(crate) use step_control::{Damped, Monotone, WholeSteps};

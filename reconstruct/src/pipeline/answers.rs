@@ -1,15 +1,45 @@
 //! The answers to the samples of a scan whose phases are known.
 
-use super::nearest::NearestPlace;
 use super::reading::{Reading, Reason, sure};
 use super::settings::Settings;
 use crate::kink::Kink;
-use crate::phase::{Break, Label, ScanPhases, contact};
+use crate::phase::{Break, Label, PlaceNumber, ScanPhases, contact};
 use crate::point::{Inverse, Touch};
 use crate::scan::{Noise, Track, TrackIndex};
 use crate::systematic::RemainingErrors;
 use nalgebra::Matrix2;
 use rod_core::Units;
+
+/// Finds the nearest place with a label, for samples in order.
+pub(super) struct NearestPlace<'a> {
+    phases: &'a ScanPhases,
+    label: Label,
+    at: usize,
+}
+
+impl<'a> NearestPlace<'a> {
+    /// For samples from the track index `start` on.
+    pub fn new(phases: &'a ScanPhases, label: Label, start: usize) -> Self {
+        let places = &phases.places;
+        let at = places.partition_point(|place| place.index < start).min(places.len().saturating_sub(1));
+        Self { phases, label, at }
+    }
+
+    /// The place that is nearest to a sample.
+    pub fn of(&mut self, TrackIndex(index): TrackIndex) -> PlaceNumber {
+        let (places, labels) = (&self.phases.places, &self.phases.labels);
+        let off = |at: usize| (labels[at].0 != self.label, places[at].index.abs_diff(index));
+        // places of other labels may lie between: go on to the sample
+        let mut look = self.at;
+        while look + 1 < places.len() && places[look].index <= index {
+            look += 1;
+            if off(look) < off(self.at) {
+                self.at = look;
+            }
+        }
+        PlaceNumber(self.at)
+    }
+}
 
 /// Standard deviations by which a criterion may contradict the phase of a single contact: as many as a contact point may be off.
 const CONTRADICTED: f64 = 6.0;

@@ -14,7 +14,6 @@ mod history;
 mod learned;
 mod live;
 mod live_settings;
-mod nearest;
 mod reading;
 mod reconstruct;
 mod reconstruction;

@@ -1,7 +1,6 @@
 //! The answers to samples with several contacts.
 
-use super::answers::Answers;
-use super::nearest::NearestPlace;
+use super::answers::{Answers, NearestPlace};
 use super::reading::{Reading, Reason};
 use crate::phase::{Break, Label};
 use crate::point::{Inverse, Touch};

@@ -1,7 +1,7 @@
 //! Samples of a sensor that repeats itself: it has lost its connection, or has reached the end of its range.
 
 use super::noise_estimate::estimate;
-use super::usual::usual;
+use super::quantum::usual;
 use rod_core::{Reactions, Sample};
 
 /// Fewest equal values in a row that cannot be chance. Where less than a third of all neighbours are equal, chance makes so many in one

@@ -18,7 +18,6 @@ mod spikes;
 mod stops;
 mod track;
 mod travel;
-mod usual;
 
 pub(crate) use local_cubic::{LocalCubic, LocalEstimate};
 pub(crate) use noise::{Noise, dimensionless};

@@ -1,5 +1,12 @@
 //! The steps of a channel of few digits.
 
+/// The median of the lengths of groups; 1 without any. Half of the groups, not of what is in them: one group may hold most.
+pub(super) fn usual(lengths: impl Iterator<Item = usize>) -> usize {
+    let mut lengths: Vec<usize> = lengths.collect();
+    let middle = lengths.len() / 2;
+    if lengths.is_empty() { 1 } else { *lengths.select_nth_unstable(middle).1 }
+}
+
 /// Longest time (samples) for which a value counts as held. Larger: a channel that rests for long is taken for one with coarser means
 /// than it has.
 const LONGEST: usize = 1024;

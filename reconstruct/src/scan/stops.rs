@@ -1,6 +1,6 @@
 //! Samples of a clamp that stands still.
 
-use super::usual::usual;
+use super::quantum::usual;
 use crate::point::Clamp;
 use nalgebra::Vector3;
 

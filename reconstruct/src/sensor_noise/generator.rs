@@ -1,7 +1,6 @@
 //! The readings of a simulated sensor.
 
-use super::error::NoiseError;
-use super::model::{Ar1, Dropout, NoiseModel};
+use super::model::{Ar1, Dropout, NoiseError, NoiseModel};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;

@@ -2,12 +2,10 @@
 //!
 //! `model` describes the errors, `file` how they are written in a file, and `generator` applies them to one sample after the other.
 
-mod error;
 #[cfg(feature = "serde")]
 mod file;
 mod generator;
 mod model;
 
-pub use error::NoiseError;
 pub use generator::NoiseGenerator;
-pub use model::{Ar1, Dropout, NoiseModel};
+pub use model::{Ar1, Dropout, NoiseError, NoiseModel};

@@ -1,8 +1,23 @@
 //! The errors of a sensor.
 
-use super::error::NoiseError;
 use crate::scan::noise_estimate::ChannelNoise;
 use rod_core::Reactions;
+
+/// Why a noise model is not possible.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoiseError {
+    /// A number that is out of its range.
+    #[error("{field} is {value}, expected {expected}")]
+    Value {
+        /// Which one, as in `white.f0x` or `crosstalk[1][3]`, rows and columns counted from 1.
+        field: String,
+        /// Its value as given.
+        value: f64,
+        /// What was expected.
+        expected: &'static str,
+    },
+}
 
 /// A sensor that is not perfect, SI units. Everything is zero by default, and a model of zeros changes nothing.
 ///

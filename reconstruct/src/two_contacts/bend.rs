@@ -1,7 +1,7 @@
 //! How curved the contour is at the contacts: by its curvature an error along the contour becomes one across.
 
+use super::choice::End;
 use super::conditions::two_by;
-use super::ends::End;
 use super::part::{INSTANTS, Local, Part, place};
 use super::run::Resolved;
 use super::unknowns::{Gradient, UNKNOWNS, Unknown, Unknowns};

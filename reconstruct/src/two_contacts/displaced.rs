@@ -2,8 +2,8 @@
 //!
 //! Displaced samples change the right-hand side of the least squares. One Gauss-Newton step from the solution leads to the displaced one.
 
+use super::choice::End;
 use super::conditions::two;
-use super::ends::End;
 use super::part::{INSTANTS, Part, place};
 use super::run::Resolved;
 use super::single::Single;

@@ -1,8 +1,7 @@
 //! Where the least squares of a run start from.
 
 use super::beyond::Beyond;
-use super::choice::Choice;
-use super::ends::End;
+use super::choice::{Choice, End};
 use super::part::Part;
 use super::trail::Trail;
 use super::unknowns::Unknown;

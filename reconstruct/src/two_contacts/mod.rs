@@ -12,21 +12,16 @@
 mod bend;
 mod beyond;
 mod choice;
-mod chord;
 mod conditions;
 mod displaced;
-mod ends;
 mod envelope;
 mod guess;
-mod misfit;
 mod pair;
 mod part;
 mod resolve;
 mod run;
 mod series;
-mod signs;
 mod single;
-mod slip;
 mod system;
 #[cfg(test)]
 mod tests;

@@ -1,19 +1,115 @@
 //! A run of stretches with two contacts: from the trails of the first contact to the least-squares solution.
 
-use super::choice::{Choice, choices};
-use super::ends::{Beside, End};
+use super::beyond::Beyond;
+use super::choice::{Beside, Choice, End, choices};
+use super::envelope::NormalSpeed;
 use super::guess::guess;
-use super::misfit::{BY_CHANCE, Misfit};
 use super::part::Part;
 use super::series::Series;
-use super::signs::are_right;
 use super::system::{Solution, System};
 use super::trail::{Trail, trails};
-use super::unknowns::Unknown;
+use super::unknowns::{Unknown, Unknowns};
 use super::unresolved::Unresolved;
 use super::weights::Tolerance;
-use crate::point::Inverse;
-use nalgebra::DVector;
+use crate::point::{Clamp, Inverse};
+use crate::scan::LocalEstimate;
+use nalgebra::{DVector, Vector3};
+
+/// Instants of a stretch that are checked, and the largest t among them: at the ends of a series its rates are uncertain.
+const INSTANTS: usize = 13;
+const WITHIN: f64 = 0.95;
+/// Share of the instants at which the signs must be right. Larger: noise at single instants rejects right solutions.
+const MOSTLY: f64 = 0.75;
+/// A force below this share of the reactions has no certain sign.
+const SMALL: f64 = 0.05;
+/// The second contact is beyond the tip if it is by more than this many of its standard deviations, and this length of rounding.
+const BEYOND: f64 = 1.5;
+const ROUNDING: f64 = 1e-6;
+/// Error of the mean of (side of the first contact) times (slope of the normal speed) that is noise, dimensionless.
+const SIDE: f64 = 0.1;
+/// The same in standard deviations of the contact's speed.
+const DOUBT: f64 = 2.0;
+
+/// Whether the forces push, the second contact is on the rod and the first contact is on the side of the solid.
+///
+/// The side of a moving contact follows from the slope of the normal speed along the rod, which is the speed of the contact times
+/// the difference of the curvatures of contour and rod.
+pub(super) fn are_right<I: Inverse>(rod: &I, part: &Part, solution: &Solution) -> bool {
+    let place = |k: usize| -WITHIN + 2.0 * WITHIN * k as f64 / (INSTANTS - 1) as f64;
+    let (mut good, mut side, mut doubt) = (0, 0.0, 0.0);
+    for k in 0..INSTANTS {
+        let local = part.local(&solution.x, place(k));
+        let Unknowns([f0x, f0y, m0z, s1, f1, s2]) = local.values;
+        let clamp = |i: usize, v: &Unknowns| Clamp {
+            pose: local.pose[i],
+            reactions: Vector3::from(Unknown::REACTIONS.map(|unknown| v[unknown])),
+            natural: if i == 0 { local.natural } else { 0.0 },
+            friction: if i == 0 { local.friction } else { 0.0 },
+        };
+        let estimate = LocalEstimate::exact(clamp(0, &local.values), clamp(1, &local.rates));
+        let speed = NormalSpeed::at(rod, &estimate, s1);
+        let (_, gradient) = rod.gradient_at(&estimate.clamp, s1);
+        let velocity = gradient.rate(&estimate.rate);
+        let (sin, cos) = speed.section.phi.sin_cos();
+        let along = cos * velocity[0] + sin * velocity[1] + local.rates[Unknown::S1];
+        let small = SMALL * (f0x.hypot(f0y) + m0z.abs());
+        if f1.abs() > small {
+            side += f1.signum() * speed.by_s * along / INSTANTS as f64;
+            doubt += speed.by_s.abs() * part.sigma_of_rate(&local, &solution.covariance) / INSTANTS as f64;
+        }
+        let beyond = Beyond::new(rod, &estimate.clamp, s1);
+        let pushes = !part.tip || beyond.pushes(f1, small);
+        if !part.tip {
+            let covariance = part.covariance(&local, &solution.covariance);
+            let sigma = covariance[(Unknown::S2 as usize, Unknown::S2 as usize)].max(0.0).sqrt();
+            if s2 - 1.0 > BEYOND * sigma + ROUNDING {
+                return false;
+            }
+        }
+        good += usize::from(pushes && s1 > 0.0 && s1 < s2);
+    }
+    good as f64 >= MOSTLY * INSTANTS as f64 && side > -SIDE - DOUBT * doubt
+}
+
+/// Largest misfit that noise explains, as a normal deviate. Larger: contradictory conditions pass, such as those of a missed transition;
+/// smaller: right solutions are rejected, one in 40 at 2.
+pub(super) const BY_CHANCE: f64 = 2.0;
+
+/// The sum of the weighted squares of a solution, without those that only ask for smoothness, and what noise makes of it on average.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Misfit {
+    pub squares: f64,
+    pub freedom: f64,
+}
+
+impl Misfit {
+    /// The reactions of a solution have as many degrees of freedom as they have coefficients, less those that the solution takes up: the
+    /// trace of what it passes on of each coefficient's error.
+    pub fn of<I: Inverse>(system: &System<'_, I>, solution: &Solution) -> Self {
+        let free = |part: &Part| -> f64 {
+            let weight = &part.series.normal;
+            let taken = |unknown: Unknown| {
+                let (from, n) = part.columns(unknown);
+                // both are symmetric: the trace of their product
+                solution.covariance.view((from, from), (n, n)).dot(weight) / part.series.variance[unknown as usize]
+            };
+            3.0 * part.series.terms() as f64 - Unknown::REACTIONS.into_iter().map(taken).sum::<f64>()
+        };
+        let squares = (solution.cost - system.roughness(&solution.x)).max(0.0);
+        Self { squares, freedom: system.parts.iter().map(free).sum::<f64>().max(1.0) }
+    }
+
+    /// The squares as a deviate of the normal distribution (Wilson and Hilferty 1931).
+    pub fn deviate(&self) -> f64 {
+        let spread = 2.0 / (9.0 * self.freedom);
+        ((self.squares / self.freedom).cbrt() - (1.0 - spread)) / spread.sqrt()
+    }
+
+    /// Factor by which the variance of the noise is larger than it is taken to be; 1 where the misfit may be chance.
+    pub fn excess(&self) -> f64 {
+        if self.deviate() < BY_CHANCE { 1.0 } else { self.squares / self.freedom }
+    }
+}
 
 /// Terms of arc lengths and forces in the first solution.
 const FEW_TERMS: usize = 4;

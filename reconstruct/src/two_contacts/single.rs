@@ -1,7 +1,7 @@
 //! The single contact beside a run with two contacts.
 
 use super::bend::UNSURE;
-use super::ends::{Beside, End};
+use super::choice::{Beside, End};
 use super::series::Series;
 use crate::numeric::propagate_covariance;
 use crate::point::{Clamp, Inverse, is_free};

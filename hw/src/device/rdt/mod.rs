@@ -6,13 +6,11 @@
 //! Sources: ATI 9620-05-Net FT (11 and C-Ethernet Axia-02), OptoForce Ethernet Converter 2.0 (2017).
 
 mod packets;
-mod profile;
 mod protocol;
 #[cfg(feature = "rdt")]
 mod scaling;
 
 pub use packets::{RdtRecord, RdtRequest};
-pub use profile::RdtProfile;
-pub use protocol::{Rdt, RdtSettings};
+pub use protocol::{Rdt, RdtProfile, RdtSettings};
 #[cfg(feature = "rdt")]
 pub use scaling::{RdtError, RdtScaling, read_scaling};
