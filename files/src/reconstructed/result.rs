@@ -137,7 +137,7 @@ impl Reconstructed {
                 // the local answer may miss the samples without contact that the contour has
                 Finding::NoFreeStretch => !is_free,
                 // of the corrections and of the missing points of the local answer: the contour has its own
-                Finding::Misfit { .. } | Finding::Unanswered { .. } => false,
+                Finding::Misfit { .. } | Finding::Unanswered { .. } | Finding::Lost { .. } => false,
                 _ => !is_within(finding),
             });
             let kinks = fit.unexplained_kinks(&self.found.kinks, &self.found.readings).filter(|_| had_kinks);

@@ -2,6 +2,7 @@
 
 use super::blocks::Blocks;
 use super::curve::Curve;
+use crate::phase::Label;
 use rod_contact::{Contact, ContactKind, Follower, State, sliding_equilibrium};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Reactions};
@@ -15,6 +16,8 @@ const SPREAD: usize = 16;
 const PARTS: usize = 3;
 /// Most steps from block to block: as many as a dozen transitions take. Larger: more time at contours along which the rod cannot be followed.
 const MOST_STEPS: u64 = 60;
+/// Distance of the contacts of one state that was found in two ways, over their arc lengths: more than what solves leave.
+const SAME: f64 = 1e-6;
 /// Distance from a vertex, rod lengths, within which a contact may be one at the vertex: points are known to so much at the start.
 pub(super) const NEAR_VERTEX: f64 = 0.02;
 
@@ -76,6 +79,7 @@ impl<R: PhysicalRod> Forward<'_, R> {
                 self.follow(&state, (segment.start..anchor).rev(), places, &mut found);
                 found[anchor] = Some(state);
             }
+            self.follow_free(segment, blocks, places, &mut found);
             let is_touching = |k: &usize| !blocks.blocks[*k].contacts.is_empty() || known[*k].is_some();
             if blocks.segments.iter().any(|whole| whole.start == segment.start)
                 && segment.start > 0
@@ -91,6 +95,34 @@ impl<R: PhysicalRod> Forward<'_, R> {
             }
         }
         found
+    }
+
+    /// A rod is free wherever the contour lets it be: the states of blocks of a segment that are free by the local answer and were not reached. The
+    /// recording shows no jump inside a segment: the blocks on both sides of one count as not reached.
+    fn follow_free(&self, segment: &Range<usize>, blocks: &Blocks, places: &[Place], found: &mut [Option<State>]) {
+        let is_free = |k: &usize| blocks.blocks[*k].label == Label::Free;
+        let (mut rest, mut beside_jumps) = (segment.clone(), Vec::new());
+        while let Some(anchor) = rest.find(|k| found[*k].is_none() && is_free(k)) {
+            let Some(state) = self.equilibrium(places[anchor], &[]) else { continue };
+            let Some(follower) = self.follower(&state, places[anchor].friction) else { continue };
+            found[anchor] = Some(state);
+            let mut beside = |way: &mut dyn Iterator<Item = usize>| {
+                let (mut follower, mut last) = (follower.clone(), anchor);
+                for k in way {
+                    let state = follower.to(places[k].pose).is_ok().then(|| follower.state());
+                    match (state, &found[k]) {
+                        (Some(here), Some(other)) if is_same(here, other) => return,
+                        (_, Some(_)) => return beside_jumps.extend([last, k]),
+                        (Some(here), None) if is_free(&k) => found[k] = Some(here.clone()),
+                        _ => return,
+                    }
+                    last = k;
+                }
+            };
+            beside(&mut (anchor + 1..segment.end));
+            beside(&mut (segment.start..anchor).rev());
+        }
+        beside_jumps.into_iter().for_each(|k| found[k] = None);
     }
 
     /// The mean reactions over the poses `half` before to `half` after that of a state, as a block of samples has where contacts form or let go
@@ -164,6 +196,12 @@ impl<R: PhysicalRod> Forward<'_, R> {
             found[k] = Some(follower.state().clone());
         }
     }
+}
+
+/// Whether two states at one pose are on one branch.
+fn is_same(one: &State, other: &State) -> bool {
+    let is_near = |(a, b): (&Contact, &Contact)| (a.s - b.s).hypot(a.x - b.x).hypot(a.y - b.y) < SAME * a.s.max(b.s);
+    one.contacts.len() == other.contacts.len() && one.contacts.iter().zip(&other.contacts).all(is_near)
 }
 
 /// The contact that has the force and the moment of several on one side of the rod, and lies between them; none of fewer.

@@ -48,7 +48,7 @@ use crate::phase::Label;
 use crate::pipeline::{Reading, Reconstruction};
 use crate::systematic::{BEYOND, Source};
 use blocks::Blocks;
-use nalgebra::Vector2;
+use nalgebra::{DVector, Vector2};
 use needed::{with_fewest_errors, with_friction};
 use piece::Piece;
 use problem::Sources;
@@ -66,6 +66,10 @@ const WITHOUT_ERRORS: usize = 500;
 const AGAIN: usize = 200;
 /// Most evaluations for the starts that first explain a part of a recording, and then more and more of it.
 const GROWING: usize = 1500;
+/// An error that is so many standard deviations of its budget off what is known of it may make up for a contour that is wrong: then a fit starts anew, so often
+/// at most. Smaller: more time on recordings whose errors are as large as they may be.
+const FAR: f64 = 2.0;
+const SETTLINGS: usize = 3;
 
 /// Why there is no fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -228,8 +232,9 @@ pub fn fit_contours<R: PhysicalRod>(
     let of_recording = |(samples, local): &(&[Sample], &Reconstruction)| Blocks::of(&uniform, samples, local);
     let blocks = recordings.iter().map(of_recording).reduce(|all, one| Some(all?.and(one?)));
     let blocks = blocks.flatten().ok_or(FitError::NoContacts)?;
-    let (sources, errors) = Sources::of(&uniform, &locals);
-    let starts = starts(rod, &uniform, &locals, blocks, &sources.errors(&errors));
+    let (sources, errors) = Sources::of(&uniform, &locals, |estimate| estimate.taken);
+    let starts_by = |errors| starts(rod, &uniform, &locals, blocks.clone(), &sources.errors(errors));
+    let starts = starts_by(&errors);
     if starts.is_empty() {
         return Err(FitError::NoContacts);
     }
@@ -241,17 +246,23 @@ pub fn fit_contours<R: PhysicalRod>(
         false => (&exact, sources.of_free(&errors, &exact), WITHOUT_ERRORS),
     };
     let search = Search { rod, sources: first, errors: &at_first, evaluations };
-    let (mut best, blocks) = best_of(&starts, search).ok_or(FitError::NoStart)?;
+    let (mut best, mut blocks) = best_of(&starts, search).ok_or(FitError::NoStart)?;
     let mut used = first;
-    if best.is_near() && !best.goodness.explains {
-        let errors = best.errors();
-        let mut search = Search { rod, sources: first, errors: &errors, evaluations: AGAIN };
-        best = search.resumed(&best, blocks).unwrap_or(best);
-    }
     if !are_free && !best.goodness.explains {
         let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: AGAIN };
         if let Some(found) = search.resumed(&best, blocks) {
             (best, used) = (found, &sources);
+        }
+    }
+    best = settled(rod, used, best, blocks);
+    // the local answer corrects no more than it needs; its estimates of all errors are another start
+    let estimates = Sources::of(&uniform, &locals, |estimate| estimate.value).1;
+    let others = if best.goodness.explains || estimates == errors { Vec::new() } else { starts_by(&estimates) };
+    let search = Search { rod, sources: &sources, errors: &estimates, evaluations: MOST_EVALUATIONS };
+    if let Some((found, its)) = best_of(&others, search) {
+        let found = settled(rod, &sources, found, its);
+        if found.preferred(&best).is_lt() {
+            (best, blocks, used) = (found, its, &sources);
         }
     }
     let samples: Vec<Sample> = recordings.iter().flat_map(|(samples, _)| *samples).copied().collect();
@@ -265,6 +276,25 @@ pub fn fit_contours<R: PhysicalRod>(
     // other errors may be in the place of friction also where none is needed
     let best = best.with_least_spread(&used.least_spread(&locals));
     Ok(best.results(rod, &samples, blocks, &used, &uniform))
+}
+
+/// A fit whose errors have settled. While a contour is far off, its prior draws it to where it started, and errors far off what is known of them make up
+/// for it. So the fit starts anew from the contour that was found and the errors that are known, as long as that is better.
+fn settled<'a, R: PhysicalRod>(rod: &'a R, sources: &'a Sources, mut best: Solved, blocks: &'a Blocks) -> Solved {
+    for _ in 0..SETTLINGS {
+        let is_far = best.goodness.farthest_error.is_some_and(|error| error.1.abs() > FAR);
+        if !best.is_near() || best.goodness.explains && !is_far {
+            break;
+        }
+        let errors = if is_far { DVector::zeros(sources.free.len()) } else { best.errors() };
+        let mut search = Search { rod, sources, errors: &errors, evaluations: AGAIN };
+        let found = best.curve_anew().and_then(|curve| search.continued(&curve, &best, blocks));
+        match found.filter(|found| found.preferred(&best).is_lt()) {
+            Some(found) => best = found,
+            None => break,
+        }
+    }
+    best
 }
 
 /// The best fit from some starts: the first that explains the recording, else the one of lowest cost. Those that first explain a part of it come
@@ -285,7 +315,7 @@ fn search_from<'a, R: PhysicalRod>(
     search: &mut Search<'a, R>,
     best: &mut Option<(Solved, &'a Blocks)>,
 ) {
-    let is_done = |best: &Option<(Solved, &Blocks)>| best.as_ref().is_some_and(|best| best.0.goodness.explains);
+    let is_done = |best: &Option<(Solved, &Blocks)>| best.as_ref().is_some_and(|best| best.0.goodness.explains_well());
     let mut begun = Vec::new();
     for start in starts {
         if is_done(best) {

@@ -39,6 +39,8 @@ pub(super) struct Touched {
     pub weight: f64,
     /// Number of the trace of one contact that it belongs to.
     pub trace: usize,
+    /// The first of the samples that touched it.
+    pub sample: usize,
 }
 
 impl Touched {

@@ -167,6 +167,7 @@ mod tests {
             sigma: 1e-3,
             weight: 1.0,
             trace: 0,
+            sample: 0,
         };
         let x = |k: usize| 0.005 * k as f64;
         let mut touched: Vec<Touched> = (0..100).map(|k| side(x(k), 0.0, 1.0)).collect();
@@ -186,7 +187,7 @@ mod tests {
         let place = |k: usize| {
             let (sin, cos) = (0.03 * k as f64).sin_cos();
             let (at, along) = (Vector2::new(0.2 * sin, 0.2 * cos), Vector2::new(cos, -sin));
-            Touched { at, along, sigma: 1e-5, weight: 1.0, trace: 0 }
+            Touched { at, along, sigma: 1e-5, weight: 1.0, trace: 0, sample: 0 }
         };
         let touched: Vec<Touched> = (0..40).map(place).collect();
         let reading = Interpretation { is_sure: true, is_joined: false, is_sharp: false };

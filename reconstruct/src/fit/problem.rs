@@ -9,7 +9,7 @@ use crate::least_squares::{Loss, NormalMatrix, Problem};
 use crate::phase::Label;
 use crate::pipeline::{Pass, Reconstruction};
 use crate::point::Clamp;
-use crate::systematic::{Correction, Errors, Source};
+use crate::systematic::{Correction, Errors, Source, SourceEstimate};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
 use rod_contact::{Contact, Derivatives, Quantity, State};
 use rod_contours::Composite;
@@ -24,7 +24,7 @@ const LOSS: Loss = Loss::Cauchy(6.0);
 const VERTEX: f64 = 3.0;
 /// Cost of a block that no branch of the model reaches: that of a residual of 1000 standard deviations. Smaller: contours win that lose bad
 /// blocks.
-pub(super) const LOST: f64 = 368.0;
+const LOST: f64 = 368.0;
 /// Residual of a block, standard deviations, from which on the model is on another branch than the rod. Smaller: what is not explained counts as
 /// not reached.
 const BRANCH: f64 = 20.0;
@@ -36,9 +36,9 @@ const FAR: f64 = 1e-5;
 /// Initial standard deviation of the change of curvature, L^-1.5.
 const BEND: f64 = 30.0;
 
-/// What a block costs that has this residual, or is not reached.
+/// What a block costs, where contours are compared, that has this residual or is not reached: on another branch than the rod it is not reached.
 pub(super) fn cost_of(residual: Option<f64>) -> f64 {
-    residual.map_or(LOST, |residual| LOSS.excess(residual))
+    residual.filter(|residual| *residual < BRANCH).map_or(LOST, |residual| LOSS.excess(residual))
 }
 
 /// What is known of the shared errors before: their sources and standard deviations.
@@ -69,15 +69,15 @@ impl FreeError {
 }
 
 impl Sources {
-    /// Those that the local answers to some recordings had a budget for, and their estimates less what is known, in standard deviations of the budget: of
-    /// an error that all recordings have, their mean.
-    pub fn of(rod: &Rod, locals: &[&Reconstruction]) -> (Self, DVector<f64>) {
+    /// Those that the local answers to some recordings had a budget for, and a value of each estimate less what is known, in standard deviations of the
+    /// budget: of an error that all recordings have, the mean.
+    pub fn of(rod: &Rod, locals: &[&Reconstruction], value: impl Fn(&SourceEstimate) -> f64) -> (Self, DVector<f64>) {
         let mut sigmas = Errors::zeros();
         let (mut known, mut start) = (vec![Errors::zeros(); locals.len()], vec![Errors::zeros(); locals.len()]);
         for (local, (known, start)) in locals.iter().zip(known.iter_mut().zip(&mut start)) {
             for estimate in local.calibration().iter().flat_map(|calibration| &calibration.sources) {
                 let (k, unit) = (estimate.source as usize, estimate.source.unit(rod));
-                (known[k], start[k]) = (estimate.known / unit, estimate.taken / unit);
+                (known[k], start[k]) = (estimate.known / unit, value(estimate) / unit);
                 sigmas[k] = sigmas[k].max(estimate.budget / unit);
             }
             // its sign is that of the passes
@@ -644,7 +644,7 @@ impl<R: PhysicalRod> Problem for Fit<'_, R> {
                 let weight = LOSS.weight(1.0, residual.norm());
                 (0..3).for_each(|c| normal.add_weighted(&by[c], residual[c], weight));
             }
-            normal.cost += cost_of(row.as_ref().map(|row| row.residual.norm()));
+            normal.cost += row.as_ref().map_or(LOST, |row| LOSS.excess(row.residual.norm()));
         }
         // a step that is rejected may have lost states
         if normal.cost <= self.least {

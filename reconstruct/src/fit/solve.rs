@@ -6,7 +6,7 @@ use super::finer::finer;
 use super::flatten::flattened;
 use super::grow::{Grown, grown};
 use super::posterior::Posterior;
-use super::problem::{Explained, Fit, FreeError, LOST, Model, Sources};
+use super::problem::{Explained, Fit, FreeError, Model, Sources};
 use super::propose::{joined, sharpened};
 use super::simple::{Best, SimpleShape};
 use super::start::Start;
@@ -272,14 +272,13 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     let explained = fit.explained(&model);
     let Model { curve, states, .. } = model;
     // unknowns that the prior alone determines count for nothing
-    let prior = fit.prior(&x, &curve).matrix;
-    let determined = x.len() as f64 - (&covariance * prior).trace();
+    let prior = fit.prior(&x, &curve);
+    let determined = x.len() as f64 - (&covariance * prior.matrix).trace();
     let farthest = farthest(&x, count, fit.sources, None);
     let goodness = Goodness::of(&explained, &fit.blocks.blocks, determined, farthest);
     fit.states.clone_from(&states);
     let spread = covariance.diagonal().iter().skip(count).map(|variance| variance.max(0.0).sqrt()).collect();
-    // of others nothing is known
-    let cost = equations.cost + LOST * explained.others as f64;
+    let cost = prior.cost + fit.cost_of(&explained);
     let (asked, bend) = (fit.asked.clone(), fit.bend);
     Some(Solved { x, curve, asked, cost, covariance, spread, bend, explained, states, goodness })
 }
@@ -323,6 +322,11 @@ impl Solved {
         let (count, all) = (self.curve.count(), self.x.len() - self.curve.count());
         let covariance = self.covariance.view((count, count), (all, all)).into_owned();
         Posterior { errors: self.errors(), covariance, possible }
+    }
+
+    /// The contour as one from which a fit starts: nothing draws it to where it came from.
+    pub fn curve_anew(&self) -> Option<Curve> {
+        Curve::through(&self.curve.nodes_of_chains())
     }
 
     /// With at least these standard deviations of the errors, in those of their budget.

@@ -13,6 +13,7 @@ use crate::systematic::Errors;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use rod_contact::{Contact, ContactKind};
 use rod_core::{PhysicalRod, Rod};
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -28,10 +29,14 @@ const WITHIN: f64 = 3.0;
 const ALONG: f64 = 0.7;
 /// Smallest force of such a contact over its noise. Smaller: blocks of a free rod get contacts.
 const CERTAIN: f64 = 6.0;
+/// Fewest blocks of the middle of a contact from which a fit starts. Fewer: they do not determine a contour.
+const FEWEST: usize = 8;
+/// Most such starts.
+const MIDDLES: usize = 2;
 
 impl Touched {
-    /// By a contact point, in rod lengths.
-    fn by(touch: &Touch, length: f64, trace: usize) -> Self {
+    /// By the contact point of a sample, in rod lengths.
+    fn by(touch: &Touch, length: f64, trace: usize, sample: usize) -> Self {
         // across the contour and along it: points that lie anywhere on the rod tell of no order
         let sigma = (touch.covariance - touch.systematic).trace().max(0.0).sqrt() / length;
         Self {
@@ -40,6 +45,7 @@ impl Touched {
             sigma,
             weight: sigma.hypot(EQUAL).powi(-2),
             trace,
+            sample,
         }
     }
 }
@@ -63,8 +69,10 @@ pub(super) fn starts<R: PhysicalRod>(
     mut blocks: Blocks,
     errors: &[Errors],
 ) -> Vec<Start> {
-    let mut points: Vec<Touched> =
-        locals.iter().enumerate().flat_map(|(k, local)| touched(local, given, first_trace(locals, k))).collect();
+    let first_sample = |recording: usize| blocks.recordings[recording].samples.start;
+    let of_recording =
+        |(k, local): (usize, &&Reconstruction)| touched(local, given, first_trace(locals, k), first_sample(k));
+    let mut points: Vec<Touched> = locals.iter().enumerate().flat_map(of_recording).collect();
     let answers = Interpretation { is_sure: true, is_joined: false, is_sharp: false };
     let guesses = Interpretation { is_sure: false, ..answers };
     let joined = |reading| Interpretation { is_joined: true, ..reading };
@@ -95,6 +103,16 @@ pub(super) fn starts<R: PhysicalRod>(
         starts.extend(of(&blocks, &points, &[guesses, joined(guesses)]));
     }
     starts.extend(parts);
+    // where a contact begins and ends a local answer goes astray first
+    for middle in middles(&blocks) {
+        let part = &blocks.blocks[middle.clone()];
+        let is_inside = |point: &&Touched| part.iter().any(|block| block.samples.contains(&point.sample));
+        let inside: Vec<Touched> = points.iter().filter(is_inside).copied().collect();
+        let is_asked = |(k, block): (usize, &Block)| block.label == Label::Free || middle.contains(&k);
+        let asked: Vec<bool> = blocks.blocks.iter().enumerate().map(is_asked).collect();
+        starts
+            .extend(of(&blocks, &inside, &[guesses]).into_iter().map(|start| Start { asked: asked.clone(), ..start }));
+    }
     let mut tried: Vec<(Vec<Vec<Node>>, Vec<bool>)> = Vec::new();
     starts.retain(|start| {
         let this = (start.chains.clone(), start.asked.clone());
@@ -105,20 +123,33 @@ pub(super) fn starts<R: PhysicalRod>(
     starts
 }
 
+/// The middle halves of the longest runs of blocks with a single contact.
+fn middles(blocks: &Blocks) -> impl Iterator<Item = Range<usize>> + use<> {
+    let is_single: Vec<bool> = blocks.blocks.iter().map(|block| block.contacts.len() == 1).collect();
+    let mut runs = blocks.runs(&is_single);
+    runs.sort_by_key(|run| Reverse(run.len()));
+    let middle = |Range { start, end }: Range<usize>| {
+        let quarter = (end - start) / 4;
+        start + quarter..end - quarter
+    };
+    runs.into_iter().map(middle).filter(|middle| middle.len() >= FEWEST).take(MIDDLES)
+}
+
 /// The number of the first trace of a recording. Between two of its kinks, each contact of the rod is one trace.
 fn first_trace(locals: &[&Reconstruction], recording: usize) -> usize {
     locals[..recording].iter().map(|local| 2 * (local.kinks.len() + 1)).sum()
 }
 
-/// The contact points of the local answer to a recording with this first trace, in lengths of its rod.
-fn touched(local: &Reconstruction, given: &Rod, first_trace: usize) -> Vec<Touched> {
+/// The contact points of the local answer to a recording with this first trace and sample, in lengths of its rod.
+fn touched(local: &Reconstruction, given: &Rod, first_trace: usize, first_sample: usize) -> Vec<Touched> {
     let length = local.calibration().map_or(given.length(), |calibration| calibration.rod(given).length());
     let mut points = Vec::new();
     for (number, reading) in local.readings.iter().enumerate() {
         let first = first_trace + 2 * kinks_before(local, number);
         let second = reading.second.and_then(Result::ok);
-        points.extend(reading.touch.ok().map(|touch| Touched::by(&touch, length, first)));
-        points.extend(second.map(|touch| Touched::by(&touch, length, first + 1)));
+        let by = |touch: &Touch, trace: usize| Touched::by(touch, length, trace, first_sample + number);
+        points.extend(reading.touch.ok().map(|touch| by(&touch, first)));
+        points.extend(second.map(|touch| by(&touch, first + 1)));
     }
     points
 }
@@ -194,7 +225,8 @@ fn singles<R: PhysicalRod>(
         let kind = if matches!(contact, OneSample::Tip(_)) { ContactKind::Tip } else { ContactKind::Tangent };
         block.contacts = vec![Contact { kind, s: touch.s.min(units.length), ..touch.into() }];
         let kinks = kinks_before(locals[recording], block.samples.start - starts[recording]);
-        let point = Touched::by(&touch, units.length, first_trace(locals, recording) + 2 * kinks);
+        let trace = first_trace(locals, recording) + 2 * kinks;
+        let point = Touched::by(&touch, units.length, trace, block.samples.start);
         found.push(Touched { weight: point.weight * block.samples.len() as f64, ..point });
     }
     found
@@ -213,6 +245,7 @@ mod tests {
             sigma: 1e-5,
             weight: 1.0,
             trace: 0,
+            sample: 0,
         };
         let line = (0..100).map(|k| at(1e-3 * f64::from(k), 0.0, 0.0));
         let vertex = (0..1000).map(|k| at(0.1, 0.0, 1e-3 * f64::from(k)));

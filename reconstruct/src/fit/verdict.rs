@@ -12,6 +12,8 @@ const WINDOW: usize = 12;
 const NOISE_KNOWN_TO: f64 = 0.03;
 /// Probability below which a recording is not explained.
 pub(super) const UNLIKELY: f64 = 1e-4;
+/// Probability from which on one that is explained by chance is not looked at again. Larger: more time, as one recording in so many is searched to the end.
+const RARE: f64 = 0.01;
 /// Names of the channels.
 const CHANNELS: [&str; 3] = ["f0x", "f0y", "m0z"];
 
@@ -123,6 +125,12 @@ impl Goodness {
             && !found.is_unreached()
             && found.error_beyond_budget().is_none();
         found
+    }
+
+    /// Whether the recording is explained so well that no other contour is looked for.
+    pub(super) fn explains_well(&self) -> bool {
+        let least = self.worst.as_ref().map_or(self.p_value, |worst| worst.p_value.min(self.p_value));
+        self.explains && least >= RARE
     }
 
     /// The worst window, where it is too unlikely for a recording that is explained.
