@@ -323,7 +323,7 @@ fn forecast<R: PhysicalRod>(
         sigmas: Vec::new(),
         known: Vec::new(),
     };
-    for (number, Hypothesis { objects, outlines, touched: before }) in hypotheses.iter().enumerate() {
+    for (number, Hypothesis { objects, outlines, touched: before, .. }) in hypotheses.iter().enumerate() {
         // only of the most plausible object are the states themselves of use
         let step = if number == 0 { scanned::STEP } else { COARSE } * rod.units().length;
         let computation = Computation { step, most_steps: Some(MOST_STEPS), most_stress: settings.most_stress };

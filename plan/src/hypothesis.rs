@@ -8,12 +8,12 @@ use crate::joined::{Joined, joined, touched_runs};
 use crate::{IntervalSet, Outline, support};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rod_contours::{Composite, Contour, Line, Range, Spline, SplineEnd};
+use rod_contours::{Composite, Contour, ContourError, Line, Range, Spline, SplineEnd};
 use rod_reconstruct::{FittedObject, Knowledge};
 use std::f64::consts::PI;
 
-/// How far a contour goes on beyond its ends, rod lengths: a scan reaches no farther.
-const ON: f64 = 1.0;
+/// How far a contour goes on beyond its ends, rod lengths: a scan reaches no farther. The later ones where ends as long cross the rest of the contour.
+const ON: [f64; 3] = [1.0, 0.5, 0.0];
 
 /// Distance of the points there, rod lengths.
 const APART: f64 = 0.03;
@@ -30,7 +30,7 @@ const TURNS: i32 = 6;
 /// Largest distance (rod lengths) of the touched ends of contours between which they count as touched: that of neighbouring points of a fit.
 const NEIGHBOURS: f64 = 0.06;
 
-/// How often a hypothesis is drawn anew whose contour crosses itself. Then its ends go on straight.
+/// How often a hypothesis is drawn anew whose contour crosses itself. Then it is left out.
 const DRAWS: usize = 20;
 
 /// An object that agrees with what is known.
@@ -42,6 +42,8 @@ pub struct Hypothesis {
     pub outlines: Vec<Outline>,
     /// What of each outline is touched before.
     pub touched: Vec<IntervalSet>,
+    /// Touched points (m) through which no object is drawn, because its contour would cross itself there.
+    pub left_out: Vec<[f64; 2]>,
 }
 
 impl Hypothesis {
@@ -53,20 +55,25 @@ impl Hypothesis {
         (count, seed): (usize, u64),
         may_be: &dyn Fn([f64; 2]) -> bool,
     ) -> Vec<Self> {
-        let middle =
-            |contours: &[Joined]| Self::of(contours, length, &mut |curvatures| median(curvatures), &mut || 0.0, may_be);
         let whole = joined(contours, 1.0, length);
-        let (contours, middle) = match middle(&whole) {
-            Some(found) => (whole, Some(found)),
-            None => {
-                // bounded stretches of two scans overlap, so that the contour would cross itself
-                let touched = joined(&contours.iter().flat_map(touched_runs).collect::<Vec<_>>(), 1.0, length);
-                let found = middle(&touched);
-                (touched, found)
-            }
+        // bounded stretches of two scans may overlap, so that the contour would cross itself
+        let touched = joined(&contours.iter().flat_map(touched_runs).collect::<Vec<_>>(), 1.0, length);
+        let some: Vec<Joined> = touched.iter().filter_map(|one| one.clone().untangled(crossing)).collect();
+        let sets = [&whole, &touched, &some];
+        let middle = |contours: &[Joined], on: f64| {
+            Self::of(contours, (length, on), &mut |curvatures| median(curvatures), &mut || 0.0, may_be)
         };
+        let attempts = ON.into_iter().flat_map(|on| sets.map(|contours| (contours, on)));
+        let found = attempts.into_iter().find_map(|(contours, on)| Some((contours, on, middle(contours, on)?)));
+        let Some((contours, on, middle)) = found else { return Vec::new() };
+        let is_drawn = |point: &[f64; 2]| some.iter().any(|one| one.contour.points.contains(point));
+        let left_out: Vec<[f64; 2]> = if std::ptr::eq(contours, &some) {
+            touched.iter().flat_map(|one| &one.contour.points).filter(|point| !is_drawn(point)).copied().collect()
+        } else {
+            Vec::new()
+        };
+        let mut all = vec![middle];
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let mut all: Vec<Self> = middle.into_iter().collect();
         for _ in 0..count {
             for _ in 0..DRAWS {
                 let mut depths: Vec<f64> = (0..256).map(|_| 2.0 * random.random::<f64>() - 1.0).collect();
@@ -75,19 +82,19 @@ impl Hypothesis {
                     count => curvatures[((random.random::<f64>() * count as f64) as usize).min(count - 1)],
                 };
                 if let Some(drawn) =
-                    Self::of(&contours, length, &mut curvature, &mut || depths.pop().unwrap_or(0.0), may_be)
+                    Self::of(contours, (length, on), &mut curvature, &mut || depths.pop().unwrap_or(0.0), may_be)
                 {
                     all.push(drawn);
                     break;
                 }
             }
         }
-        all
+        all.into_iter().map(|one| Self { left_out: left_out.clone(), ..one }).collect()
     }
 
     fn of(
         contours: &[Joined],
-        length: f64,
+        (length, on): (f64, f64),
         curvature: &mut dyn FnMut(&[f64]) -> f64,
         depth: &mut dyn FnMut() -> f64,
         may_be: &dyn Fn([f64; 2]) -> bool,
@@ -95,7 +102,7 @@ impl Hypothesis {
         let (mut objects, mut touched_points) = (Vec::new(), Vec::new());
         for Joined { contour, .. } in contours {
             let inner = deepened(contour, depth);
-            let (object, points) = went_on(&inner, length, curvature, may_be)?;
+            let (object, points) = went_on(&inner, (length, on), curvature, may_be)?;
             objects.push(object);
             touched_points.push(points);
         }
@@ -119,7 +126,7 @@ impl Hypothesis {
             touched
         });
         let touched = touched.collect();
-        (!objects.is_empty()).then_some(Self { objects, outlines, touched })
+        (!objects.is_empty()).then_some(Self { objects, outlines, touched, left_out: Vec::new() })
     }
 }
 
@@ -143,10 +150,19 @@ fn deepened(contour: &FittedObject, depth: &mut dyn FnMut() -> f64) -> FittedObj
     moved
 }
 
-/// The object with both ends gone on, and its points, none for those that are not touched.
+/// Where the smooth pieces through the points of a contour cross, m; an error where they are none for another reason.
+fn crossing(contour: &FittedObject) -> Result<Option<[f64; 2]>, ()> {
+    match Composite::new(pieces(&contour.points, &contour.vertices).ok_or(())?) {
+        Ok(_) => Ok(None),
+        Err(ContourError::Crosses { x, y, .. }) => Ok(Some([x, y])),
+        Err(_) => Err(()),
+    }
+}
+
+/// The object with both ends gone on, by `on` rod lengths of `length` (m) at most, and its points, none for those that are not touched.
 fn went_on(
     contour: &FittedObject,
-    length: f64,
+    (length, on): (f64, f64),
     curvature: &mut dyn FnMut(&[f64]) -> f64,
     may_be: &dyn Fn([f64; 2]) -> bool,
 ) -> Option<(Composite, Vec<Option<[f64; 2]>>)> {
@@ -161,13 +177,13 @@ fn went_on(
     }
     let turn = turn_of(&contour.points);
     let most = (0.5 * (2.0 * PI - OPEN - turn.abs())).max(0.0);
-    let step = APART * length;
+    let (step, farthest) = (APART * length, (on / APART) as usize);
     let mut beyond = |x: f64, y: f64, alpha: f64, forwards: bool| {
         let kappa = curvature(&curvatures);
         let sign = if forwards { 1.0 } else { -1.0 };
         let (mut at, mut angle, mut turned) = ([x, y], alpha, 0.0);
         let mut points = Vec::new();
-        while points.len() < (ON / APART) as usize && turned + kappa.abs() * step <= most {
+        while points.len() < farthest && turned + kappa.abs() * step <= most {
             angle += sign * 0.5 * kappa * step;
             let ahead = |turn: f64| {
                 let (sin, cos) = (angle + sign * turn).sin_cos();
@@ -190,7 +206,6 @@ fn went_on(
     let points: Vec<[f64; 2]> = before.iter().chain(&contour.points).chain(&after).copied().collect();
     let (first, last) = (points.first()?, points.last()?);
     // ends that went on as far as they may have turned towards each other
-    let farthest = (ON / APART) as usize;
     let meets = before.len().max(after.len()) < farthest
         && (first[0] - last[0]).hypot(first[1] - last[1]) < MEET * length
         && points.len() > 3;
@@ -301,6 +316,39 @@ mod tests {
         let expected = 0.2 * 58.0 * 6.7 / 79.0;
         assert!(outline.is_closed() && (outline.length() - 0.4 * PI).abs() < 0.01, "{}", outline.length());
         assert!((touched.length() - expected).abs() < 1e-3, "{touched:?} {expected}");
+    }
+
+    /// As of scans whose fits disagree.
+    #[test]
+    fn touched_points_at_which_a_contour_crosses_itself_are_left_out() {
+        let mut contour = arc(-2.3, 1.0, 50);
+        contour.points.swap(20, 23);
+        let all = Hypothesis::all(&[contour.clone()], 1.0, (2, 1), &|_| true);
+        assert_eq!(all.len(), 3);
+        let left_out = &all[0].left_out;
+        let is_near = |one: &[f64; 2]| contour.points[19..25].contains(one);
+        assert!((1..=4).contains(&left_out.len()) && left_out.iter().all(is_near), "{left_out:?}");
+        // of the 49 steps
+        let share = all[0].touched[0].length() / (0.2 * 3.3);
+        assert!((43.9 / 49.0..=1.0).contains(&share), "{share}");
+        let plain = Hypothesis::all(&[arc(-2.3, 1.0, 50)], 1.0, (0, 1), &|_| true);
+        assert!(plain[0].left_out.is_empty());
+    }
+
+    /// What the rod has passed turns an end, so that it would cross the contour.
+    #[test]
+    fn ends_that_would_cross_the_contour_are_shorter() {
+        // to the right along a line, then left and back
+        let (count, radius) = (8, 0.025);
+        let line = (0..=15).map(|k| [0.02 * f64::from(k), 0.0]);
+        let turn = (1..=count).map(|k| PI * f64::from(k) / f64::from(count));
+        let bow = turn.map(|angle| [0.3 + radius * angle.sin(), radius * (1.0 - angle.cos())]);
+        let points: Vec<[f64; 2]> = line.chain(bow).collect();
+        let known = vec![Knowledge::Touched { sigma: 1e-4 }; points.len()];
+        let contour = FittedObject { vertices: vec![15], known, points };
+        let all = Hypothesis::all(&[contour], 1.0, (0, 1), &|[x, y]| x > 0.28 || y < 0.02);
+        assert_eq!((all.len(), all[0].left_out.len()), (1, 0));
+        assert!((all[0].touched[0].length() - 0.3 - PI * radius).abs() < 1e-3, "{:?}", all[0].touched);
     }
 
     #[test]

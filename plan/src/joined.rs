@@ -1,6 +1,7 @@
 //! Contours of one object, joined.
 
 use rod_reconstruct::{FittedObject, Knowledge};
+use std::ops::Range;
 
 /// A contour that is made of several.
 #[derive(Clone, Debug)]
@@ -66,6 +67,44 @@ impl Joined {
         }
     }
 
+    /// Without points at which it crosses itself, by the place (m) of the `crossing` of a contour. Of the parts that begin or end at a crossing the one of fewest points is left out:
+    /// a loop, or an end. None where that is more than half of the points, or no contour passes through them.
+    pub fn untangled(mut self, crossing: impl Fn(&FittedObject) -> Result<Option<[f64; 2]>, ()>) -> Option<Self> {
+        let least = self.contour.points.len() / 2;
+        while let Some(place) = crossing(&self.contour).ok()? {
+            let points = &self.contour.points;
+            let distance = |k: &usize| distance_to_step([points[*k], points[k + 1]], place);
+            let mut steps: Vec<usize> = (0..points.len() - 1).collect();
+            steps.sort_by(|one, other| distance(one).total_cmp(&distance(other)));
+            let [one, other] = *steps.first_chunk::<2>()?;
+            let (one, other) = (one.min(other) + 1, one.max(other) + 1);
+            let parts = [0..one, one..other, other..points.len()];
+            self.leave_out_part(parts.into_iter().min_by_key(ExactSizeIterator::len)?);
+            if self.contour.points.len() < least.max(2) {
+                return None;
+            }
+        }
+        Some(self)
+    }
+
+    /// Leaves out some points in a row; nothing is measured between those before and after them.
+    fn leave_out_part(&mut self, part: Range<usize>) {
+        let Self { contour, starts } = self;
+        let (first, count) = (part.start, part.len());
+        let moved = |k: usize| if k < part.end { k.min(first) } else { k - count };
+        contour.vertices.retain(|vertex| !part.contains(vertex));
+        contour.vertices.iter_mut().for_each(|vertex| *vertex = moved(*vertex));
+        starts.push(first);
+        starts.iter_mut().for_each(|start| *start = moved(*start));
+        contour.points.drain(part.clone());
+        contour.known.drain(part);
+        let last = contour.points.len().saturating_sub(1);
+        contour.vertices.retain(|vertex| (1..last).contains(vertex));
+        starts.retain(|start| (1..=last).contains(start));
+        starts.sort_unstable();
+        starts.dedup();
+    }
+
     /// Leaves one point of a pair out, whose second one is `k`; nothing is left between the two that is not measured.
     fn leave_out(&mut self, left: usize, k: usize) {
         let Self { contour, starts } = self;
@@ -78,6 +117,13 @@ impl Joined {
         starts.retain(|start| *start != k);
         starts.iter_mut().for_each(|start| *start -= usize::from(*start > k));
     }
+}
+
+/// Distance (m) of a place from the way from one point to another.
+fn distance_to_step([from, to]: [[f64; 2]; 2], place: [f64; 2]) -> f64 {
+    let (way, own) = ([to[0] - from[0], to[1] - from[1]], [place[0] - from[0], place[1] - from[1]]);
+    let share = ((own[0] * way[0] + own[1] * way[1]) / (way[0] * way[0] + way[1] * way[1])).clamp(0.0, 1.0);
+    (own[0] - share * way[0]).hypot(own[1] - share * way[1])
 }
 
 fn joined_ends(contours: &[FittedObject], most: f64) -> Vec<Joined> {

@@ -141,6 +141,8 @@ struct Explored {
     share: Share,
     /// Scans after which the precise share was 0.95, and their way.
     enough: Option<(usize, f64)>,
+    /// Touched points through which no object could be drawn.
+    left_out: usize,
     /// Predicted over found standard deviation, of the scans along the contour.
     ratios: Vec<f64>,
 }
@@ -159,6 +161,7 @@ fn explore(object: &Composite, settings: ExplorerSettings, seed: u64, truth: &Tr
         largest_stress: 0.0,
         share: Share::default(),
         enough: None,
+        left_out: 0,
         ratios: Vec::new(),
     };
     while begin.elapsed() < most
@@ -214,6 +217,7 @@ fn explore(object: &Composite, settings: ExplorerSettings, seed: u64, truth: &Tr
         }
     }
     found.finish = explorer.finished();
+    found.left_out = explorer.left_out().len();
     found
 }
 
@@ -310,7 +314,7 @@ fn a_free_form_object_is_explored() {
     let truth = truth(&object, 12, &[0.3, 0.6]);
     let found = explore(&object, settings(&object, 1), 1, &truth, Duration::MAX);
     assert!(found.share.precise > 0.95 && found.scans <= 8, "{found:?}");
-    assert!(found.largest_stress <= YIELD && found.aborted == 0, "{found:?}");
+    assert!(found.largest_stress <= YIELD && found.aborted == 0 && found.left_out == 0, "{found:?}");
     assert_eq!(found.finish, Some(Finish::Precise));
 }
 

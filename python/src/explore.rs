@@ -7,6 +7,7 @@ use crate::rod::PyRod;
 use crate::samples::Samples;
 use crate::simulate::model;
 use crate::{errors, running};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use rod_files::FittedPoint;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -239,6 +240,13 @@ impl PyExplorer {
     fn known<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let rows: Vec<FittedPoint> = FittedPoint::all(self.lock().known()).collect();
         structured(py, FITTED, rows.iter())
+    }
+
+    /// Touched points, m, of shape (n, 2), of which the proposals know nothing: no object is drawn through them, because its contour would cross itself there.
+    #[getter]
+    fn left_out<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points = running::run(py, || self.lock().left_out())?;
+        PyArray1::from_vec(py, points.concat()).reshape([points.len(), 2])
     }
 
     fn __repr__(&self) -> String {

@@ -49,6 +49,7 @@ def test_proposals_and_what_is_known(rod: vibrissa.Rod, circle: vibrissa.Circula
     assert 0.0 < second.largest_stress <= 1.5e9
     exploring.update(measured(rod, circle, second.path, 2))
     assert exploring.finished == "most scans" and exploring.propose() is None
+    assert exploring.left_out.shape == (0, 2)
 
 
 def test_an_exploration_goes_on_from_a_reconstruction(rod: vibrissa.Rod, circle: vibrissa.CircularArc) -> None:

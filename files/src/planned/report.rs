@@ -23,6 +23,10 @@ impl Planned {
             (None, true) => writeln!(text, "warning: no largest stress: whether the rod yields is not checked")?,
             (None, false) => writeln!(text, "the rod has no diameter: whether it yields is not known")?,
         }
+        let left_out = self.plan.hypotheses.first().map_or(0, |one| one.left_out.len());
+        if left_out > 0 {
+            writeln!(text, "left out: {left_out} touched points at which the contour would cross itself")?;
+        }
         let is_ruled_out = |forecast: &&Forecast| forecast.gain.is_none();
         let ruled_out = self.plan.forecasts.iter().filter(is_ruled_out).count();
         if ruled_out > 0 {

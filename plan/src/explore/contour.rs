@@ -27,7 +27,7 @@ pub(super) fn best_scan(
     let grid =
         ReachGrid { distances: settings.distances.clone(), angles: settings.angles.clone(), ..ReachGrid::of(rod) };
     let plan_settings = plan_settings(rod, settings, known);
-    let Some((chains, hypotheses)) = drawn(rod, &plan_settings, known, space)? else { return Ok(None) };
+    let Some(hypotheses) = drawn(rod, &plan_settings, known, space)? else { return Ok(None) };
     let candidates = candidates_of(&hypotheses, grid.scans(), rod.length(), &|| true)?;
     let is_safe = |path: ClampPath| space.allows(path) && is_allowed(path);
     let safe: Vec<Candidate> =
@@ -35,7 +35,7 @@ pub(super) fn best_scan(
     if safe.is_empty() {
         return Ok(None);
     }
-    let plan = plan_of(rod, &chains, hypotheses, &safe, &plan_settings, &|_| true)?;
+    let plan = plan_of(rod, known, hypotheses, &safe, &plan_settings, &|_| true)?;
     let allowed = plan.allowed();
     let worth = |taken: &[usize]| plan.value(taken) + plan.improved(taken, settings.sigma);
     let own = |taken: &[usize]| taken.iter().map(|k| allowed[*k]).collect::<Vec<_>>();
@@ -72,8 +72,16 @@ fn plan_settings(rod: &Rod, settings: &ExplorerSettings, known: &[FittedObject])
     }
 }
 
-/// What is known of a contour, as far as objects can be drawn through it, and these objects.
-type Drawn = (Vec<FittedObject>, Vec<Hypothesis>);
+/// Touched points (m) through which no object is drawn.
+pub(super) fn left_out(
+    rod: &Rod,
+    settings: &ExplorerSettings,
+    known: &[FittedObject],
+    space: &FreeSpace,
+) -> Vec<[f64; 2]> {
+    let all = Hypothesis::all(known, rod.length(), (0, settings.seed), &|point| space.may_be(point));
+    all.into_iter().next().map_or_else(Vec::new, |one| one.left_out)
+}
 
 /// Objects through what is known of a contour; none where there is no such object.
 fn drawn(
@@ -81,15 +89,9 @@ fn drawn(
     settings: &PlanSettings,
     known: &[FittedObject],
     space: &FreeSpace,
-) -> Result<Option<Drawn>, ExploreError> {
-    // chains that contradict each other give no object: the longest ones hold
-    let mut chains: Vec<FittedObject> = known.to_vec();
-    chains.sort_by_key(|chain| std::cmp::Reverse(chain.points.len()));
-    loop {
-        match hypotheses(&chains, rod.length(), settings, &|point| space.may_be(point)) {
-            Err(PlanError::NothingKnown) if chains.len() > 1 => chains.pop(),
-            Err(PlanError::NothingKnown) => return Ok(None),
-            all => return Ok(Some((chains, all?))),
-        };
+) -> Result<Option<Vec<Hypothesis>>, ExploreError> {
+    match hypotheses(known, rod.length(), settings, &|point| space.may_be(point)) {
+        Err(PlanError::NothingKnown) => Ok(None),
+        all => Ok(Some(all?)),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::abort::largest_moment;
 use super::approach::{DEPTH, approach};
-use super::contour::{best_scan, is_drawn};
+use super::contour::{best_scan, is_drawn, left_out};
 use super::facing::faces;
 use super::free_space::FreeSpace;
 use super::fused::fused;
@@ -194,6 +194,12 @@ impl Explorer {
     /// What is known of the contour.
     pub fn known(&self) -> &[FittedObject] {
         &self.known
+    }
+
+    /// Touched points (m) of which the proposals know nothing: no object is drawn through them, because its contour would cross itself there. Scans that disagree are the cause.
+    pub fn left_out(&self) -> Vec<[f64; 2]> {
+        let Self { rod, settings, known, space, .. } = self;
+        left_out(rod, settings, known, space)
     }
 
     /// What each scan told of the contour, in the order in which they were made.

@@ -122,8 +122,10 @@ fn direction(object: &FittedObject, k: usize) -> [f64; 2] {
 fn nearest(objects: &[FittedObject], at: [f64; 2], direction: [f64; 2], reach: f64) -> Option<Place> {
     let mut best: Option<(Place, f64)> = None;
     for object in objects {
-        let last = object.points.len() - 1;
-        for k in 1..=last {
+        let is_touched = |k: usize| object.known.get(k).is_some_and(|known| known.sigma().is_some());
+        // the nearest place of the stretch so far, and whether the point is beyond an end of the stretch there: that is not beside it
+        let mut nearest: Option<(Place, f64, bool)> = None;
+        for k in 1..object.points.len() {
             let (Knowledge::Touched { sigma: before }, Knowledge::Touched { sigma: after }) =
                 (object.known[k - 1], object.known[k])
             else {
@@ -134,16 +136,23 @@ fn nearest(objects: &[FittedObject], at: [f64; 2], direction: [f64; 2], reach: f
             let square = way[0] * way[0] + way[1] * way[1];
             let along = way[0] * direction[0] + way[1] * direction[1];
             let free = ((at[0] - from[0]) * way[0] + (at[1] - from[1]) * way[1]) / square;
-            // beyond the end of what is touched is not beside it
-            let is_touched = |k: usize| object.known.get(k).is_some_and(|known| known.sigma().is_some());
             let starts = k.checked_sub(2).is_none_or(|k| !is_touched(k));
-            let is_beyond = (starts && free < -BEYOND) || (!is_touched(k + 1) && free > 1.0 + BEYOND);
+            let ends = !is_touched(k + 1);
             let share = free.clamp(0.0, 1.0);
             let place = [from[0] + share * way[0], from[1] + share * way[1]];
             let distance = (place[0] - at[0]).hypot(place[1] - at[1]);
-            let is_nearer = best.is_none_or(|best| distance < best.1);
-            if along > PARALLEL * square.sqrt() && distance <= reach && !is_beyond && is_nearer {
-                best = Some((Place { at: place, sigma: before + share * (after - before) }, distance));
+            if along > PARALLEL * square.sqrt()
+                && distance <= reach
+                && nearest.is_none_or(|nearest| distance < nearest.1)
+            {
+                let is_beyond = (starts && free < -BEYOND) || (ends && free > 1.0 + BEYOND);
+                nearest = Some((Place { at: place, sigma: before + share * (after - before) }, distance, is_beyond));
+            }
+            if ends
+                && let Some((place, distance, false)) = nearest.take()
+                && best.is_none_or(|best| distance < best.1)
+            {
+                best = Some((place, distance));
             }
         }
     }
@@ -171,6 +180,19 @@ mod tests {
         let (points, known) = (&chains[0].points, &chains[0].known);
         assert!(points[5][1] == 0.0 && (points[15][1] - 5e-4).abs() < 1e-15 && points[21][1] == 1e-3);
         assert!((known[15].sigma().unwrap() - 1e-3 / 2.0_f64.sqrt()).abs() < 1e-15);
+    }
+
+    /// Beside neither the last touched step of the other scan, which is short, nor the one before it.
+    #[test]
+    fn a_point_beyond_the_end_of_another_scan_stays_where_it_is() {
+        let first = line(0, 20, 0.0, |_| 1e-3);
+        let mut second = line(8, 12, 0.0, |_| 1e-3);
+        second.points = vec![[0.16, 0.0], [0.18, 0.0], [0.185, 0.0], [0.19, 0.0], [0.21, 0.0]];
+        second.known[4] = Knowledge::Bounded { room: 0.05 };
+        let chains = fused(&[vec![first], vec![second]], 1.0);
+        assert_eq!(chains.len(), 1);
+        let places: Vec<f64> = chains[0].points.iter().map(|point| point[0]).collect();
+        assert!(places.is_sorted() && (places[10] - 0.2).abs() < 1e-15, "{places:?}");
     }
 
     #[test]
