@@ -53,6 +53,22 @@ fn quality(samples: &[Sample]) -> (f64, f64) {
 }
 
 #[test]
+fn a_first_sample_that_cannot_be_used_has_the_label_of_the_next() {
+    let samples = samples(&scan(1, 0.4, 2e-5), |_, x| x);
+    let whole = reconstruct(&rod(), &samples, &Settings::default()).unwrap();
+    let first = whole.readings.iter().position(|reading| reading.label == Label::B).unwrap() + 2000;
+    let mut in_contact = samples[first..].to_vec();
+    in_contact[0].reactions.f0x = f64::NAN;
+    let labels: Vec<Label> = reconstruct(&rod(), &in_contact, &Settings::default())
+        .unwrap()
+        .readings
+        .iter()
+        .map(|reading| reading.label)
+        .collect();
+    assert_eq!(labels[..2], [Label::B, Label::B]);
+}
+
+#[test]
 fn noisy_and_stepping_poses_are_used() {
     let clean = scan(1, 0.4, 2e-5);
     let (_, best) = quality(&samples(&clean, |_, x| x));

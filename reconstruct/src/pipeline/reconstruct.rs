@@ -70,7 +70,9 @@ pub(super) fn reconstruct_by<I: Inverse>(
                 readings.push(usable[index.0]);
             }
             Err(fault) => {
-                let label = readings.last().map_or(Label::Free, |before: &Reading| before.label);
+                // that of the sample before, or of the first one that can be used: a pass may begin in contact
+                let beside = readings.last().or(usable.first());
+                let label = beside.map_or(Label::Free, |beside: &Reading| beside.label);
                 readings.push(Reading::without(label, Reason::Fault(*fault)));
             }
         }
