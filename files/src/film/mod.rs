@@ -4,6 +4,7 @@ mod channels;
 mod error;
 mod options;
 mod points;
+mod readable;
 mod record;
 mod result;
 mod sensor;
@@ -12,6 +13,6 @@ mod table;
 
 pub use channels::channels_of_columns;
 pub use error::{AtRestError, FilmError};
-pub(crate) use options::check_frames;
 pub use options::{Ends, FilmOptions};
+pub(crate) use readable::check_frames;
 pub use result::FilmForces;

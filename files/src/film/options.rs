@@ -1,29 +1,8 @@
-//! How a film is read, and why a file of its options is none.
+//! How a film is read.
 
-use super::error::FilmError;
-use super::points::points;
-use super::table::Numbers;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use vibrissa::hw::Mounting;
 use vibrissa::reconstruct::{ForceSettings, Frame, PolePrior};
-
-/// Reads a table of points without looking for forces.
-///
-/// # Errors
-/// [`FilmError`]: the table cannot be read, or has faults.
-pub(crate) fn check_frames(file: &Path) -> Result<(), FilmError> {
-    let options = FilmOptions {
-        scale: 1.0,
-        image: false,
-        ends: Ends::Base,
-        channels: None,
-        mounting: None,
-        rest: None,
-        pole: None,
-        settings: ForceSettings::default(),
-    };
-    points(Numbers::read(file)?, &options).map(|_| ())
-}
 
 /// Which ends of the rod the points show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

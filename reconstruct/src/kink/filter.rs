@@ -1,8 +1,8 @@
 //! Kinks and jumps as the samples come.
 
-use super::find::Kink;
 use super::scale::{KinkOptions, reach};
 use super::search::Detector;
+use super::transition::Kink;
 use crate::scan::noise_estimate::ChannelNoise;
 use std::collections::VecDeque;
 

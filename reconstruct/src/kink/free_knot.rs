@@ -1,6 +1,6 @@
 //! Place and size of a transition: least squares with a free knot, on samples or on bins of them.
 
-use super::find::KinkKind;
+use super::transition::KinkKind;
 use crate::numeric::NormalEquations;
 use nalgebra::{SMatrix, SVector};
 

@@ -32,7 +32,9 @@ mod free_knot;
 mod level;
 mod scale;
 mod search;
+mod transition;
 
 pub use filter::KinkFilter;
-pub use find::{Kink, KinkKind, find_kinks};
+pub use find::find_kinks;
 pub use scale::KinkOptions;
+pub use transition::{Kink, KinkKind};

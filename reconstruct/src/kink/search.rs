@@ -2,10 +2,10 @@
 
 use super::basis::{BinWindow, FEWEST_BINS, MOST_BINS, ROWS, Verdict, WindowBasis};
 use super::candidate::Candidates;
-use super::find::{Kink, KinkKind};
 use super::free_knot::{FittedTransition, KnotData};
 use super::level::Level;
 use super::scale::{KinkOptions, WindowLength, scales};
+use super::transition::{Kink, KinkKind};
 use crate::numeric::chi_squared::{exceeded_by_six, exceeded_by_three, wilson_hilferty};
 use crate::scan::bands::Bands;
 use crate::scan::noise_estimate::ChannelNoise;
