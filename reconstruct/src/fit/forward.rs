@@ -104,23 +104,15 @@ impl<R: PhysicalRod> Forward<'_, R> {
         let (mut rest, mut beside_jumps) = (segment.clone(), Vec::new());
         while let Some(anchor) = rest.find(|k| found[*k].is_none() && is_free(k)) {
             let Some(state) = self.equilibrium(places[anchor], &[]) else { continue };
-            let Some(follower) = self.follower(&state, places[anchor].friction) else { continue };
+            // up to a state of a contact, and not beyond where there is none
+            let is_own = |found: &[Option<State>], k: &usize| is_free(k) || found[*k].is_some();
+            let after: Vec<usize> = (anchor + 1..segment.end).take_while(|k| is_own(found, k)).collect();
+            let before: Vec<usize> = (segment.start..anchor).rev().take_while(|k| is_own(found, k)).collect();
+            let next = self.follow(&state, after.into_iter(), places, found);
+            let last = self.follow(&state, before.into_iter(), places, found);
+            beside_jumps
+                .extend(next.into_iter().flat_map(|k| [k - 1, k]).chain(last.into_iter().flat_map(|k| [k, k + 1])));
             found[anchor] = Some(state);
-            let mut beside = |way: &mut dyn Iterator<Item = usize>| {
-                let (mut follower, mut last) = (follower.clone(), anchor);
-                for k in way {
-                    let state = follower.to(places[k].pose).is_ok().then(|| follower.state());
-                    match (state, &found[k]) {
-                        (Some(here), Some(other)) if is_same(here, other) => return,
-                        (_, Some(_)) => return beside_jumps.extend([last, k]),
-                        (Some(here), None) if is_free(&k) => found[k] = Some(here.clone()),
-                        _ => return,
-                    }
-                    last = k;
-                }
-            };
-            beside(&mut (anchor + 1..segment.end));
-            beside(&mut (segment.start..anchor).rev());
         }
         beside_jumps.into_iter().for_each(|k| found[k] = None);
     }
@@ -179,22 +171,28 @@ impl<R: PhysicalRod> Forward<'_, R> {
         None
     }
 
-    /// Follows the rod from a state until it jumps, cannot be followed, or comes to a place whose state is known. Friction is the same along the way.
+    /// Follows the rod from a state until it jumps, cannot be followed, or comes to a place whose state is known: that place if the state there is another one.
+    /// Friction is the same along the way.
     pub fn follow(
         &self,
         from: &State,
         mut way: impl Iterator<Item = usize>,
         places: &[Place],
         found: &mut [Option<State>],
-    ) {
-        let Some(first) = way.next() else { return };
-        let Some(mut follower) = self.follower(from, places[first].friction) else { return };
+    ) -> Option<usize> {
+        let first = way.next()?;
+        let mut follower = self.follower(from, places[first].friction)?;
         for k in std::iter::once(first).chain(way) {
-            if follower.to(places[k].pose).is_err() || found[k].is_some() {
-                return;
+            let is_reached = follower.to(places[k].pose).is_ok();
+            if let Some(known) = &found[k] {
+                return (!is_reached || !is_same(follower.state(), known)).then_some(k);
+            }
+            if !is_reached {
+                return None;
             }
             found[k] = Some(follower.state().clone());
         }
+        None
     }
 }
 

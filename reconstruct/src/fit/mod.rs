@@ -258,11 +258,10 @@ pub fn fit_contours<R: PhysicalRod>(
     // the local answer corrects no more than it needs; its estimates of all errors are another start
     let estimates = Sources::of(&uniform, &locals, |estimate| estimate.value).1;
     let is_needed = !best.goodness.explains && !best.is_near() && estimates != errors;
-    let others = if is_needed { starts_by(&estimates) } else { Vec::new() };
-    let mut search = Search { rod, sources: &sources, errors: &estimates, evaluations: MOST_EVALUATIONS };
-    let mut other = None;
-    search_from(&whole_of(&others).0, &mut search, &mut other);
-    if let Some((found, its)) = other {
+    let mut others = if is_needed { starts_by(&estimates) } else { Vec::new() };
+    others.retain(Start::is_whole);
+    let search = Search { rod, sources: &sources, errors: &estimates, evaluations: MOST_EVALUATIONS };
+    if let Some((found, its)) = best_of(&others, search) {
         let found = settled(rod, &sources, found, its);
         if found.preferred(&best).is_lt() {
             (best, blocks, used) = (found, its, &sources);
@@ -303,7 +302,7 @@ fn settled<'a, R: PhysicalRod>(rod: &'a R, sources: &'a Sources, mut best: Solve
 /// The best fit from some starts: the first that explains the recording well, else the one of lowest cost among those that explain it, or among all. Starts
 /// that first explain a part of it come last, where none explains it, with evaluations of their own.
 fn best_of<'a, R: PhysicalRod>(starts: &'a [Start], mut search: Search<'a, R>) -> Option<(Solved, &'a Blocks)> {
-    let (whole, parts) = whole_of(starts);
+    let (whole, parts): (Vec<&Start>, Vec<&Start>) = starts.iter().partition(|start| start.is_whole());
     let mut best = None;
     search_from(&whole, &mut search, &mut best);
     if best.as_ref().is_none_or(|best| !best.0.goodness.explains) {
@@ -311,11 +310,6 @@ fn best_of<'a, R: PhysicalRod>(starts: &'a [Start], mut search: Search<'a, R>) -
         search_from(&parts, &mut search, &mut best);
     }
     best
-}
-
-/// The starts that explain the whole recording at once, and the others.
-fn whole_of(starts: &[Start]) -> (Vec<&Start>, Vec<&Start>) {
-    starts.iter().partition(|start| !start.asked.contains(&false))
 }
 
 /// Searches from some starts, the most promising first, until a fit explains the recording well.

@@ -60,6 +60,13 @@ pub(super) struct Start {
     pub asked: Vec<bool>,
 }
 
+impl Start {
+    /// Whether the whole recording is explained at once.
+    pub fn is_whole(&self) -> bool {
+        !self.asked.contains(&false)
+    }
+}
+
 /// Where the fit of a recording may start, the most likely first. `given` is a uniform rod of the length and the stiffness at the clamp of `rod`;
 /// `errors` are those of the local answers to the recordings.
 pub(super) fn starts<R: PhysicalRod>(
@@ -76,17 +83,18 @@ pub(super) fn starts<R: PhysicalRod>(
     let answers = Interpretation { is_sure: true, is_joined: false, is_sharp: false };
     let guesses = Interpretation { is_sure: false, ..answers };
     let joined = |reading| Interpretation { is_joined: true, ..reading };
-    let of = |blocks: &Blocks, points: &[Touched], readings: &[Interpretation]| {
+    let of = |(blocks, swept): (&Blocks, &Swept), points: &[Touched], readings: &[Interpretation]| {
         let points = &along_contours(points);
-        let swept = Swept::of(rod, blocks, errors);
         let start = |reading: &Interpretation| Start {
-            chains: outline(points, *reading, &swept),
+            chains: outline(points, *reading, swept),
             asked: vec![true; blocks.blocks.len()],
             blocks: blocks.clone(),
         };
         readings.iter().map(start).collect::<Vec<_>>()
     };
-    let mut starts = of(&blocks, &points, &[answers, joined(answers), Interpretation { is_sharp: true, ..answers }]);
+    let swept = Swept::of(rod, &blocks, errors);
+    let sharp = Interpretation { is_sharp: true, ..answers };
+    let mut starts = of((&blocks, &swept), &points, &[answers, joined(answers), sharp]);
     // what the local answer leaves open is explained later
     let is_answered = |block: &Block| block.label == Label::Free || !block.contacts.is_empty();
     let answered: Vec<bool> = blocks.blocks.iter().map(is_answered).collect();
@@ -95,23 +103,23 @@ pub(super) fn starts<R: PhysicalRod>(
         locals.iter().enumerate().flat_map(|(k, local)| doubtful(local, first_trace(locals, k))).collect();
     let certain: Vec<Touched> = points.iter().filter(|point| !doubtful.contains(&point.trace)).copied().collect();
     if certain.len() < points.len() {
-        starts.extend(of(&blocks, &certain, &[answers]));
+        starts.extend(of((&blocks, &swept), &certain, &[answers]));
     }
     let singles = singles(rod, locals, &mut blocks, errors);
+    let swept = if singles.is_empty() { swept } else { Swept::of(rod, &blocks, errors) };
     if !singles.is_empty() {
         points.extend(singles);
-        starts.extend(of(&blocks, &points, &[guesses, joined(guesses)]));
+        starts.extend(of((&blocks, &swept), &points, &[guesses, joined(guesses)]));
     }
     starts.extend(parts);
     // where a contact begins and ends a local answer goes astray first
     for middle in middles(&blocks) {
-        let part = &blocks.blocks[middle.clone()];
-        let is_inside = |point: &&Touched| part.iter().any(|block| block.samples.contains(&point.sample));
-        let inside: Vec<Touched> = points.iter().filter(is_inside).copied().collect();
+        let samples = blocks.blocks[middle.start].samples.start..blocks.blocks[middle.end - 1].samples.end;
+        let inside: Vec<Touched> = points.iter().filter(|point| samples.contains(&point.sample)).copied().collect();
         let is_asked = |(k, block): (usize, &Block)| block.label == Label::Free || middle.contains(&k);
         let asked: Vec<bool> = blocks.blocks.iter().enumerate().map(is_asked).collect();
-        starts
-            .extend(of(&blocks, &inside, &[guesses]).into_iter().map(|start| Start { asked: asked.clone(), ..start }));
+        let begun = of((&blocks, &swept), &inside, &[guesses]);
+        starts.extend(begun.into_iter().map(|start| Start { asked: asked.clone(), ..start }));
     }
     let mut tried: Vec<(Vec<Vec<Node>>, Vec<bool>)> = Vec::new();
     starts.retain(|start| {

@@ -32,7 +32,10 @@ fn samples(states: &[State]) -> Vec<Sample> {
 /// With AR(1) noise of 2.5 mN and 0.06 N mm.
 fn noisy(samples: &mut [Sample], seed: u64) {
     let sigma = Reactions { f0x: 2.5e-3, f0y: 2.5e-3, m0z: 6e-5 };
-    let model = NoiseModel { ar1: Ar1 { sigma, correlation: 0.45 }, ..NoiseModel::default() };
+    noisy_by(NoiseModel { ar1: Ar1 { sigma, correlation: 0.45 }, ..NoiseModel::default() }, samples, seed);
+}
+
+fn noisy_by(model: NoiseModel, samples: &mut [Sample], seed: u64) {
     let mut generator = model.generator(seed).unwrap();
     samples.iter_mut().for_each(|sample| sample.reactions = generator.sample(sample.reactions).unwrap());
 }
@@ -229,9 +232,8 @@ fn a_short_contact_in_strong_noise_is_explained() {
     let (rod, exact) = disturb(&rod, &samples(&states), |source| error_of(&given, source)).unwrap();
     let white = Reactions { f0x: 0.01, f0y: 0.01, m0z: 2.4e-4 };
     let is_explained = |seed: u64| {
-        let mut noise = NoiseModel { white, ..NoiseModel::default() }.generator(seed).unwrap();
         let mut samples = exact.clone();
-        samples.iter_mut().for_each(|sample| sample.reactions = noise.sample(sample.reactions).unwrap());
+        noisy_by(NoiseModel { white, ..NoiseModel::default() }, &mut samples, seed);
         let fit = fitted(&rod, &samples, &Settings { budget: None, ..AS_IS });
         println!("seed {seed}: {:?}", fit.as_ref().map(|fit| fit.goodness.explains));
         fit.is_ok_and(|fit| fit.goodness.explains)
