@@ -10,6 +10,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rod_contours::{Composite, Contour, ContourError, Line, Range, Spline, SplineEnd};
 use rod_reconstruct::{FittedObject, Knowledge};
+use std::cell::LazyCell;
 use std::f64::consts::PI;
 
 /// How far a contour goes on beyond its ends, rod lengths: a scan reaches no farther. The later ones where ends as long cross the rest of the contour.
@@ -32,6 +33,15 @@ const NEIGHBOURS: f64 = 0.06;
 
 /// How often a hypothesis is drawn anew whose contour crosses itself. Then it is left out.
 const DRAWS: usize = 20;
+
+/// What of the contours objects are drawn through.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Drawn {
+    Whole,
+    Touched,
+    /// What is touched, without points at which it crosses itself.
+    Untangled,
+}
 
 /// An object that agrees with what is known.
 #[derive(Clone, Debug)]
@@ -57,17 +67,24 @@ impl Hypothesis {
     ) -> Vec<Self> {
         let whole = joined(contours, 1.0, length);
         // bounded stretches of two scans may overlap, so that the contour would cross itself
-        let touched = joined(&contours.iter().flat_map(touched_runs).collect::<Vec<_>>(), 1.0, length);
-        let some: Vec<Joined> = touched.iter().filter_map(|one| one.clone().untangled(crossing)).collect();
-        let sets = [&whole, &touched, &some];
-        let middle = |contours: &[Joined], on: f64| {
-            Self::of(contours, (length, on), &mut |curvatures| median(curvatures), &mut || 0.0, may_be)
-        };
-        let attempts = ON.into_iter().flat_map(|on| sets.map(|contours| (contours, on)));
-        let found = attempts.into_iter().find_map(|(contours, on)| Some((contours, on, middle(contours, on)?)));
-        let Some((contours, on, middle)) = found else { return Vec::new() };
-        let is_drawn = |point: &[f64; 2]| some.iter().any(|one| one.contour.points.contains(point));
-        let left_out: Vec<[f64; 2]> = if std::ptr::eq(contours, &some) {
+        let touched =
+            LazyCell::new(|| joined(&contours.iter().flat_map(touched_runs).collect::<Vec<_>>(), 1.0, length));
+        let untangled = LazyCell::new(|| touched.iter().filter_map(|one| one.clone().untangled(crossing)).collect());
+        let attempts =
+            ON.into_iter().flat_map(|on| [Drawn::Whole, Drawn::Touched, Drawn::Untangled].map(|of| (of, on)));
+        let found = attempts.into_iter().find_map(|(drawn, on)| {
+            let contours: &Vec<Joined> = match drawn {
+                Drawn::Whole => &whole,
+                Drawn::Touched => &touched,
+                Drawn::Untangled => &untangled,
+            };
+            let mut straight = || 0.0;
+            let middle = Self::of(contours, (length, on), &mut |curvatures| median(curvatures), &mut straight, may_be);
+            Some((drawn, contours, on, middle?))
+        });
+        let Some((drawn, contours, on, middle)) = found else { return Vec::new() };
+        let left_out: Vec<[f64; 2]> = if drawn == Drawn::Untangled {
+            let is_drawn = |point: &[f64; 2]| contours.iter().any(|one| one.contour.points.contains(point));
             touched.iter().flat_map(|one| &one.contour.points).filter(|point| !is_drawn(point)).copied().collect()
         } else {
             Vec::new()
