@@ -188,8 +188,8 @@ impl ComparedRods {
         let head = ["sigma um", "noise for it", "touched mm", "stress MPa"];
         let names = self.parameters.iter().map(String::as_str);
         let mut table = Table::new(["scene"].into_iter().chain(names).chain(head));
-        for row in self.rows.iter().filter(|row| row.found.is_ok()).take(SHOWN) {
-            let Ok(found) = &row.found else { continue };
+        let swept = self.rows.iter().filter_map(|row| Some((row, row.found.as_ref().ok()?)));
+        for (row, found) in swept.take(SHOWN) {
             let shown = |value: Option<f64>, unit: f64, digits: usize| {
                 value.map_or_else(|| "-".to_owned(), |value| format!("{:.digits$}", unit * value))
             };
@@ -203,9 +203,9 @@ impl ComparedRods {
             table.row([row.scene.to_string()].into_iter().chain(values).chain(numbers));
         }
         write!(text, "{table}")?;
-        let refused: Vec<&Row> = self.rows.iter().filter(|row| row.found.is_err()).collect();
-        if let Some((first, Err(reason))) = refused.first().map(|row| (row.scene, &row.found)) {
-            writeln!(text, "{} scenes without a result, the first one is {first}: {reason}", refused.len())?;
+        let mut refused = self.rows.iter().filter_map(|row| Some((row.scene, row.found.as_ref().err()?)));
+        if let Some((first, reason)) = refused.next() {
+            writeln!(text, "{} scenes without a result, the first one is {first}: {reason}", 1 + refused.count())?;
         }
         Ok(())
     }
