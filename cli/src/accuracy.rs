@@ -87,5 +87,5 @@ fn compare_rods(arguments: Expect) -> Result<ExitCode, Error> {
     staged.publish()?;
     say(&found.report());
     say(&format!("written to {}\n", out.display()));
-    Ok(ExitCode::SUCCESS)
+    Ok(if found.is_refused() { ExitCode::from(UNFINISHED) } else { ExitCode::SUCCESS })
 }

@@ -150,6 +150,28 @@ fn bad_input_is_named() {
     }
 }
 
+/// As of other studies.
+#[test]
+fn rods_none_of_which_can_be_swept_are_no_success() {
+    let directory = directory();
+    let study = |field: &str| {
+        format!(
+            "scene = \"scene.toml\"\n[[parameter]]\nname = \"length\"\nvalues = [0.1, -1.0]\nset = [{{ field = \"rod.{field}\" }}]\n"
+        )
+    };
+    fs::write(directory.path().join("noise.toml"), "white = { force = 2.5e-3, m0z = 6e-5 }\n").unwrap();
+    for (field, status, message) in [
+        ("lenght", 2, "2 scenes without a result, the first one is 0: "),
+        ("length", 0, "1 scene without a result, the first one is 1: "),
+    ] {
+        fs::write(directory.path().join("rods.toml"), study(field)).unwrap();
+        let output = vibrissa(directory.path(), &["budget", "rods.toml", "--rods", "--noise", "noise.toml"]);
+        let report = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(status), "{report}");
+        assert!(report.contains(message) && report.contains(&format!("rod.{field}")), "{report}");
+    }
+}
+
 /// Two rods in the order of their standard deviations, which are those of reconstructions of their recordings.
 #[test]
 fn rods_are_ranked_by_the_precision_that_their_recordings_have() {

@@ -3,7 +3,7 @@
 use crate::WriteError;
 use rayon::prelude::*;
 use rod_files::output::{csv_writer, pretty_json};
-use rod_files::table::Table;
+use rod_files::table::{Table, counted};
 use rod_files::{Scene, Speed, Staged, Study};
 use serde::Serialize;
 use std::fmt::Write;
@@ -126,6 +126,11 @@ impl Row {
 }
 
 impl ComparedRods {
+    /// Whether no scene could be swept.
+    pub fn is_refused(&self) -> bool {
+        self.rows.iter().all(|row| row.found.is_err())
+    }
+
     /// Writes rods.csv and rods.json.
     ///
     /// # Errors
@@ -182,8 +187,9 @@ impl ComparedRods {
         let um = 1e6 * self.sigma;
         writeln!(
             text,
-            "{}: {scenes} scenes, {reached} with a median standard deviation of at most {um} um by the noise alone",
-            self.name
+            "{}: {}, {reached} with a median standard deviation of at most {um} um by the noise alone",
+            self.name,
+            counted(scenes, "scene")
         )?;
         let head = ["sigma um", "noise for it", "touched mm", "stress MPa"];
         let names = self.parameters.iter().map(String::as_str);
@@ -205,7 +211,8 @@ impl ComparedRods {
         write!(text, "{table}")?;
         let mut refused = self.rows.iter().filter_map(|row| Some((row.scene, row.found.as_ref().err()?)));
         if let Some((first, reason)) = refused.next() {
-            writeln!(text, "{} scenes without a result, the first one is {first}: {reason}", 1 + refused.count())?;
+            let scenes = counted(1 + refused.count(), "scene");
+            writeln!(text, "{scenes} without a result, the first one is {first}: {reason}")?;
         }
         Ok(())
     }
