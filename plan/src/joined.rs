@@ -67,8 +67,8 @@ impl Joined {
         }
     }
 
-    /// Without points at which it crosses itself, by the place (m) of the `crossing` of a contour. Of the parts that begin or end at a crossing the one of fewest points is left out:
-    /// a loop, or an end. None where that is more than half of the points, or no contour passes through them.
+    /// Without the points that make it cross itself; `crossing` gives the place (m) where a contour does. At each crossing a loop or an end is left out, the part with the fewest
+    /// points. None where that would be more than half of all points, or where no contour passes through them.
     pub fn untangled(mut self, crossing: impl Fn(&FittedObject) -> Result<Option<[f64; 2]>, ()>) -> Option<Self> {
         let least = self.contour.points.len() / 2;
         while let Some(place) = crossing(&self.contour).ok()? {

@@ -97,8 +97,8 @@ impl<R: PhysicalRod> Forward<'_, R> {
         found
     }
 
-    /// A rod is free wherever the contour lets it be: the states of blocks of a segment that are free by the local answer and were not reached. The
-    /// recording shows no jump inside a segment: the blocks on both sides of one count as not reached.
+    /// The states of a free rod, for blocks of a segment that have no contact by the local answer and to which no contact led. The recording shows no jump
+    /// inside a segment: where the model jumps from a free rod to the states of a contact, the blocks on both sides count as not reached.
     fn follow_free(&self, segment: &Range<usize>, blocks: &Blocks, places: &[Place], found: &mut [Option<State>]) {
         let is_free = |k: &usize| blocks.blocks[*k].label == Label::Free;
         let (mut rest, mut beside_jumps) = (segment.clone(), Vec::new());

@@ -12,7 +12,7 @@ const WINDOW: usize = 12;
 const NOISE_KNOWN_TO: f64 = 0.03;
 /// Probability below which a recording is not explained.
 pub(super) const UNLIKELY: f64 = 1e-4;
-/// Probability from which on one that is explained by chance is not looked at again. Larger: more time, as one recording in so many is searched to the end.
+/// Probability of an explanation from which on no other contour is looked for. Larger: more time, as good contours have smaller ones by chance so often.
 const RARE: f64 = 0.01;
 /// Names of the channels.
 const CHANNELS: [&str; 3] = ["f0x", "f0y", "m0z"];

@@ -160,8 +160,8 @@ impl<M: RodModel> Elastica<M> {
         (loaded + self.free_energy()) * self.units.energy
     }
 
-    /// [`bending_energy`](Self::bending_energy); and cuts the segments where that has to know the rod, so that what is then asked about all of the
-    /// rod has less to find out. Shape and forces stay as they are.
+    /// [`bending_energy`](Self::bending_energy); and cuts the segments at the places that its computation passes, so that later questions about the whole
+    /// rod start there, and not at the ends of long segments. Shape and forces stay as they are.
     pub fn split(&mut self) -> f64 {
         if self.rod.is_uniform() {
             return self.bending_energy();

@@ -66,7 +66,7 @@ pub trait RodModel {
     /// The bending energy (E I / L) of a segment that ends at arc length `to` with the cut `end`.
     fn bending_energy(&self, segment: &Segment<Cut>, to: f64, end: &Cut) -> f64;
 
-    /// The same, and shows places of the segment whose cuts it takes to compute it, if any, in order from the start: what is left of the segment there.
+    /// The same; and shows what is left of the segment at each place that the computation passes, in order from the start: nowhere, unless a model says otherwise.
     fn bending_energy_by_parts(
         &self,
         segment: &Segment<Cut>,
