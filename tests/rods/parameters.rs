@@ -141,6 +141,39 @@ fn states_change_as_derivatives_say() {
     assert!(compared > 200 && worst < 1e-8, "{compared} {worst:e}");
 }
 
+/// Of a uniform rod the derivative has a closed form; one of a section is a rod as any other.
+#[test]
+fn a_uniform_rod_is_bent_at_rest_as_one_of_a_section_is() {
+    let object = o1();
+    let springs = ElasticClamp::springs(Some(300.0), Some(100.0), Some(20.0)).unwrap();
+    let uniform = Mounted::new(Rod::new(1.0, 1.0).unwrap(), springs);
+    let section = |bend: f64| RodSection { length: 1.0, bending_stiffness: 1.0, natural_curvature: bend };
+    let of_section = |bend: f64| Mounted::new(Rod::sections(1.0, &[section(bend)]).unwrap(), springs);
+    let path = ClampPath::new(at(1.0), at(-1.0)).unwrap();
+    let states = Sweep::new(&uniform, &object, path, 0.083).unwrap().run().states;
+    let (mut compared, mut worst) = (0, 0.0_f64);
+    for state in states.iter().filter(|state| !state.contacts.is_empty()) {
+        let derivatives = Derivatives::new(&uniform, &object, state).unwrap();
+        if derivatives.condition() > 1e4 {
+            continue;
+        }
+        let found = derivatives.by_rod(&uniform, RodParameter::NaturalCurvature).unwrap();
+        let of = |h: f64| equilibrium(&of_section(h), &object, state.pose, &state.contacts).unwrap().state;
+        let mut check = |what: f64, pick: &dyn Fn(&State) -> f64| {
+            let slope = slope(3e-4, |h| pick(&of(h)));
+            worst = worst.max((what - slope).abs() / (1.0 + slope.abs()));
+        };
+        check(found.reactions.f0x, &|state| state.reactions.f0x);
+        check(found.reactions.m0z, &|state| state.reactions.m0z);
+        for (j, contact) in found.contacts.iter().enumerate() {
+            check(contact.force, &|state| state.contacts[j].force);
+            check(contact.s, &|state| state.contacts[j].s);
+        }
+        compared += 1;
+    }
+    assert!(compared > 10 && worst < 1e-8, "{compared} {worst:e}");
+}
+
 #[test]
 fn transitions_move_as_derivatives_say() {
     let object = o1();

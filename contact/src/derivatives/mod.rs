@@ -152,7 +152,7 @@ impl<'a> Derivatives<'a> {
 
     /// The change of everything per unit of a parameter of the rod, SI units. `rod` is the rod of the state.
     ///
-    /// It takes an integral along the rod, by Gauss points that are halved until they agree to 1e-14.
+    /// It takes an integral along the rod, by Gauss points that are halved until they agree to 1e-14; none for the natural curvature of a uniform rod.
     ///
     /// ```
     /// use rod_contact::{ClampPath, Derivatives, Sweep};
@@ -172,8 +172,12 @@ impl<'a> Derivatives<'a> {
     /// # Errors
     /// [`ContactError::NoQuantity`] where the rod has no such parameter, [`ContactError::NotEquilibrium`] for another rod.
     pub fn by_rod<R: PhysicalRod>(&self, rod: &R, parameter: RodParameter) -> Result<Response, ContactError> {
-        let rate = curvature_rate(rod, parameter)?;
-        let rates = self.restored.linear.response_to_bend(rod.model(), rate);
+        let (rate, linear) = (curvature_rate(rod, parameter)?, &self.restored.linear);
+        let rates = match parameter {
+            // the same all along
+            RodParameter::NaturalCurvature => linear.response_to_even_bend(rod.model(), rate(0.5, 0.0)),
+            _ => linear.response_to_bend(rod.model(), rate),
+        };
         Ok(self.in_units(rates.ok_or(ContactError::NotEquilibrium { reason: "it is of another rod" })?))
     }
 

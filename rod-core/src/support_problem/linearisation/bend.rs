@@ -6,7 +6,9 @@
 //! int (derivative of the end by the slope angle at s) g(s, m(s)) ds
 //! ```
 //!
-//! which takes Gauss points along the segment, halved until they agree, and two carries a point: whatever the model of the rod.
+//! which takes Gauss points along the segment, halved until they agree, and two carries a point: whatever the model of the rod. A uniform rod
+//! that is bent evenly by g begins the segment with a curvature that is larger by g, and phi'' does not change: the derivative is that by the
+//! moment where the segment starts.
 
 use super::{Held, Linearisation, Response, Vector};
 use crate::model::{AT, RodModel, WEIGHT};
@@ -51,8 +53,21 @@ impl Linearisation {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn response_to_bend(&self, rod: &impl RodModel, rate: impl Fn(f64, f64) -> f64) -> Option<Response> {
-        let ends = self.bent_ends(rod, rate)?;
-        let nodes = self.solved(&self.rates_of(&ends), &self.still())?;
+        self.response_to_ends(&self.bent_ends(rod, rate)?)
+    }
+
+    /// The same where the curvature changes by `rate` all along: of a uniform rod without an integral.
+    pub fn response_to_even_bend(&self, rod: &impl RodModel, rate: f64) -> Option<Response> {
+        if !rod.is_uniform() {
+            return self.response_to_bend(rod, |_, _| rate);
+        }
+        let by_moment = |Held { segment, .. }: &Held, _| [0, 1, 2].map(|i| rate * segment.by_moment[i]);
+        self.response_to_ends(&self.ends_by(rod, by_moment)?)
+    }
+
+    /// The change of the equilibrium where the ends of the segments move like this.
+    fn response_to_ends(&self, ends: &Vector) -> Option<Response> {
+        let nodes = self.solved(&self.rates_of(ends), &self.still())?;
         let reactions = match (&self.law, nodes.first()) {
             // the base goes where the rod ends
             (Some(_), Some(first)) => {
@@ -66,18 +81,24 @@ impl Linearisation {
 
     /// How the end of each segment, (x, y, phi) on the side of the clamp, moves as the rod bends.
     fn bent_ends(&self, rod: &impl RodModel, rate: impl Fn(f64, f64) -> f64) -> Option<Vector> {
+        self.ends_by(rod, |Held { node, .. }, to| bent_end(rod, node, to, &rate))
+    }
+
+    /// The same by `end_of` a segment, which ends at an arc length.
+    fn ends_by(&self, rod: &impl RodModel, end_of: impl Fn(&Held, f64) -> [f64; 3]) -> Option<Vector> {
         if self.passage.is_some() {
             return None;
         }
         let mut ends = Vector::with_capacity(3 * self.held.len());
         let (mut to, mut target) = (0.0, [self.base.x, self.base.y, self.base.phi]);
-        for Held { node, .. } in &self.held {
+        for held in &self.held {
+            let node = &held.node;
             let end = rod.carry(node.s, &node.cut(), node.a, node.b, to - node.s);
             let misses = [end.x - target[0], end.y - target[1], end.phi - target[2]];
             if !misses.iter().all(|miss| miss.abs() < SAME) {
                 return None;
             }
-            ends.extend(bent_end(rod, node, to, &rate));
+            ends.extend(end_of(held, to));
             (to, target) = (node.s, [node.at.x, node.at.y, node.phi]);
         }
         Some(ends)
