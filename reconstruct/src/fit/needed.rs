@@ -6,10 +6,12 @@
 
 use super::AGAIN;
 use super::blocks::Blocks;
+use super::curve::Curve;
 use super::posterior::numbers;
 use super::problem::{FreeError, Sources};
 use super::solve::{Search, Solved};
 use crate::systematic::BEYOND;
+use nalgebra::DVector;
 use rod_core::PhysicalRod;
 
 /// The fit with friction besides all errors of another one, and these, where it is beyond what the errors leave open; none where it is not.
@@ -20,9 +22,14 @@ pub(super) fn with_friction<R: PhysicalRod>(
     blocks: &Blocks,
 ) -> Option<(Solved, Sources)> {
     let sources = all.and_friction();
-    let errors = best.errors().resize_vertically(sources.free.len(), 0.0);
-    let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: AGAIN };
-    let found = search.continued(&best.curve, best, blocks).filter(|found| found.goodness.explains)?;
+    let with = |errors: DVector<f64>, curve: &Curve| {
+        let errors = errors.resize_vertically(sources.free.len(), 0.0);
+        let mut search = Search { rod, sources: &sources, errors: &errors, evaluations: AGAIN };
+        search.continued(curve, best, blocks).filter(|found| found.goodness.explains)
+    };
+    // errors that make up for friction may be far off: then they are as they are known at first
+    let anew = || with(DVector::zeros(all.free.len()), &best.curve_anew()?);
+    let found = with(best.errors(), &best.curve).or_else(anew)?;
     let posterior = found.posterior(sources.free.len());
     let is_beyond = |i: usize| posterior.errors[i].abs() > BEYOND * posterior.covariance[(i, i)].sqrt();
     (all.free.len()..sources.free.len()).any(is_beyond).then_some((found, sources))

@@ -27,7 +27,7 @@ const VERTEX: f64 = 3.0;
 const LOST: f64 = 368.0;
 /// Residual of a block, standard deviations, from which on the model is on another branch than the rod. Smaller: what is not explained counts as
 /// not reached.
-const BRANCH: f64 = 20.0;
+pub(super) const BRANCH: f64 = 20.0;
 /// Step for derivatives of the correction by the errors, in standard deviations of the budget.
 const STEP: f64 = 1e-6;
 /// Rate of a contact by an offset below which it is left out: cardinal splines fall to a fourth from knot to knot.
@@ -175,6 +175,8 @@ pub(super) struct Fit<'a, R> {
     pub curve: Curve,
     pub blocks: &'a Blocks,
     pub sources: &'a Sources,
+    /// Whether contours are only tried: then the rod is not followed along blocks inside which contacts change.
+    pub is_rough: bool,
     /// Which blocks are to be explained; the others cost as much as if they were not reached.
     pub asked: Vec<bool>,
     /// Standard deviation of the change of curvature over a length of way, 1/m per root of m.
@@ -238,7 +240,7 @@ pub(super) struct Corrected {
 impl Corrected {
     /// Measured less model, in standard deviations of the noise as it was measured: a gain, or a clamp that yields to noisy reactions, must
     /// not make the noise small. `by_pose` are the derivatives of the model.
-    fn residual(&self, model: &Vector3<f64>, by_pose: &Matrix3<f64>, block: &Block) -> Vector3<f64> {
+    pub fn residual(&self, model: &Vector3<f64>, by_pose: &Matrix3<f64>, block: &Block) -> Vector3<f64> {
         let by_noise = self.by_reactions - by_pose * self.pose_by_reactions;
         let residual = self.reactions - model;
         by_noise.try_inverse().map_or(residual, |shown| shown * residual).component_div(&block.sigma)
@@ -251,6 +253,8 @@ pub(super) struct Model {
     pub objects: Vec<Composite>,
     pub corrected: Vec<Corrected>,
     pub states: Vec<Option<State>>,
+    /// Derivatives of the dimensionless reactions of each state by its pose (m, radians); 0 where the rod touches nothing, and at a fold.
+    pub by_pose: Vec<Matrix3<f64>>,
     /// How far the rod is bent at rest beyond what is given, times its length.
     pub natural: f64,
     /// How each state changes with that, per 1/m; none where the rod touches nothing or is at a fold, and where it is known.
@@ -289,11 +293,9 @@ impl Model {
     }
 }
 
-/// Derivatives of the reactions of a state: by the pose, the coefficient with which its contacts slide, and the offsets of the points of the contour that
-/// it feels.
+/// Derivatives of the reactions of a state by the coefficient with which its contacts slide, and by the offsets of the points of the contour that it feels.
 #[derive(Default)]
 struct Rates {
-    by_pose: Matrix3<f64>,
     by_friction: Vector3<f64>,
     by_offsets: Vec<(usize, Vector3<f64>)>,
 }
@@ -328,7 +330,7 @@ impl<'a, R: PhysicalRod> Fit<'a, R> {
         let states = vec![None; blocks.blocks.len()];
         let bend = BEND * rod.units().length.powf(-1.5);
         let asked = vec![true; blocks.blocks.len()];
-        Self { rod, curve, blocks, sources, asked, bend, states, least: f64::INFINITY, evaluations: 0 }
+        Self { rod, curve, blocks, sources, is_rough: false, asked, bend, states, least: f64::INFINITY, evaluations: 0 }
     }
 }
 
@@ -383,13 +385,12 @@ impl<R: PhysicalRod> Fit<'_, R> {
     /// The model with these unknowns; none where its contour is no curve.
     pub fn model(&self, x: &DVector<f64>) -> Option<Model> {
         let curve = self.curve.moved(x.rows(0, self.curve.count()).into_owned())?;
-        let mut model = self.model_with(x, curve, Vec::new())?;
+        let model = self.model_with(x, curve, Vec::new())?;
         let place = |one: &Corrected| Place { pose: one.pose, friction: one.friction };
         let places: Vec<Place> = model.corrected.iter().map(place).collect();
         let forward = Forward { rod: self.rod, curve: &model.curve, objects: &model.objects };
-        model.states = forward.states(self.blocks, &self.asked, &places, &self.states);
-        model.by_natural = self.by_natural(&model);
-        Some(model)
+        let states = forward.states(self.blocks, &self.asked, &places, &self.states);
+        Some(self.with_states(model, states))
     }
 
     /// The model with these unknowns, whose contour and states are known.
@@ -398,21 +399,27 @@ impl<R: PhysicalRod> Fit<'_, R> {
         let (objects, corrected) = (curve.objects()?, self.corrected(&errors)?);
         // one rod for all recordings
         let natural = errors.first().map_or(0.0, |errors| errors[Source::NaturalCurvature as usize]);
-        let mut model = Model { curve, objects, corrected, states, natural, by_natural: Vec::new() };
-        model.by_natural = self.by_natural(&model);
-        Some(model)
+        let (by_pose, by_natural) = (Vec::new(), Vec::new());
+        let model = Model { curve, objects, corrected, states: Vec::new(), by_pose, natural, by_natural };
+        Some(self.with_states(model, states))
     }
 
-    /// How the states of a model change with the natural curvature of the rod, where that is not known to be as given.
-    fn by_natural(&self, Model { objects, states, natural, .. }: &Model) -> Vec<Option<Response>> {
-        if *natural == 0.0 && self.sources.number(Source::NaturalCurvature).is_none() {
-            return Vec::new();
-        }
-        let of = |state: &State| {
-            let derivatives = Derivatives::new(self.rod, objects, state).ok()?;
-            derivatives.by_rod(self.rod, RodParameter::NaturalCurvature).ok()
+    /// A model with these states, and how they change with the pose and with the natural curvature of the rod.
+    fn with_states(&self, model: Model, states: Vec<Option<State>>) -> Model {
+        let units = self.rod.units();
+        let size = [units.force, units.force, units.moment];
+        let is_bent = model.natural != 0.0 || self.sources.number(Source::NaturalCurvature).is_some();
+        let rates = |state: &Option<State>| {
+            let touching = state.as_ref().filter(|state| !state.contacts.is_empty());
+            let derivatives = touching.and_then(|state| Derivatives::new(self.rod, &model.objects, state).ok());
+            let Some(derivatives) = derivatives else { return (Matrix3::zeros(), None) };
+            let stiffness = derivatives.stiffness();
+            let by_pose = stiffness.map_or_else(|_| Matrix3::zeros(), |by| Matrix3::from_fn(|c, j| by[c][j] / size[c]));
+            let by_natural = || derivatives.by_rod(self.rod, RodParameter::NaturalCurvature).ok();
+            (by_pose, is_bent.then(by_natural).flatten())
         };
-        states.iter().map(|state| state.as_ref().filter(|state| !state.contacts.is_empty()).and_then(of)).collect()
+        let (by_pose, by_natural) = states.iter().map(rates).unzip();
+        Model { states, by_pose, by_natural, ..model }
     }
 
     /// Whether a block without a state is explained by a free rod: nothing in its segment tells of a contact.
@@ -423,7 +430,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
 
     /// The recording against the model.
     pub fn explained(&self, model: &Model) -> Explained {
-        let (means, Model { objects, corrected, states, .. }) = (self.means(model), model);
+        let (means, Model { corrected, states, by_pose, .. }) = (self.means(model), model);
         let mut explained = Explained::default();
         for (k, block) in self.blocks.blocks.iter().enumerate() {
             let state = states[k].as_ref();
@@ -431,8 +438,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
             let label = state.map_or(Label::Free, |state| Label::of(state.phase().contacts, state.phase().tip));
             explained.labels.push(is_known.then_some(label));
             let (is_known, model) = (is_known && means[k].is_some(), means[k].unwrap_or_default());
-            let by_pose = state.map_or_else(Matrix3::zeros, |state| self.by_pose(objects, state));
-            let residual = corrected[k].residual(&model, &by_pose, block);
+            let residual = corrected[k].residual(&model, &by_pose[k], block);
             explained.residuals.push((is_known && !block.is_left_out).then_some(residual));
             explained.unreached += usize::from(self.asked[k] && !is_known && !block.is_left_out);
             explained.others += usize::from(!self.asked[k] && !block.is_left_out);
@@ -445,14 +451,6 @@ impl<R: PhysicalRod> Fit<'_, R> {
         explained
     }
 
-    /// Derivatives of the reactions of a state by the pose; none at a fold count as 0.
-    fn by_pose(&self, objects: &[Composite], state: &State) -> Matrix3<f64> {
-        let units = self.rod.units();
-        let size = [units.force, units.force, units.moment];
-        let stiffness = Derivatives::new(self.rod, objects, state).and_then(|derivatives| derivatives.stiffness());
-        stiffness.map_or_else(|_| Matrix3::zeros(), |by| Matrix3::from_fn(|c, j| by[c][j] / size[c]))
-    }
-
     /// Whether a coefficient of friction is one of the unknowns.
     fn rubs(&self) -> bool {
         self.sources.free.iter().any(|error| error.source == Source::Friction)
@@ -462,7 +460,6 @@ impl<R: PhysicalRod> Fit<'_, R> {
     fn rates(&self, Model { curve, objects, .. }: &Model, state: &State) -> Option<Rates> {
         let units = self.rod.units();
         let derivatives = Derivatives::new(self.rod, objects, state).ok()?;
-        let stiffness = derivatives.stiffness().ok()?;
         let size = Vector3::new(units.force, units.force, units.moment);
         let is_near = |rate: &SupportRate| rate.x.hypot(rate.y) > FAR || rate.alpha.abs() * units.length > FAR;
         let felt = |Response { reactions: Reactions { f0x, f0y, m0z }, .. }: &Response| {
@@ -470,7 +467,6 @@ impl<R: PhysicalRod> Fit<'_, R> {
         };
         let by_offsets = by_offsets(&derivatives, curve, state, is_near);
         Some(Rates {
-            by_pose: Matrix3::from_fn(|c, j| stiffness[c][j] / size[c]),
             by_friction: if self.rubs() { felt(&derivatives.by_sliding().ok()?) } else { Vector3::zeros() },
             by_offsets: by_offsets.iter().map(|(i, response)| (*i, felt(response))).collect(),
         })
@@ -567,7 +563,8 @@ impl<R: PhysicalRod> Fit<'_, R> {
             let (here, model) = (&corrected[k], means[k].unwrap_or_else(|| self.reactions(k, at)));
             let mut by: [Vec<(usize, f64)>; 3] = Default::default();
             let touching = state.filter(|state| !state.contacts.is_empty());
-            let Rates { by_pose, by_friction, by_offsets } = match touching {
+            let by_pose = at.by_pose[k];
+            let Rates { by_friction, by_offsets } = match touching {
                 Some(state) => self.rates(at, state)?,
                 None => Rates::default(),
             };
