@@ -30,7 +30,7 @@ use crate::elastica::Elastica;
 use crate::model::{Cut, CutSensitivities, RodModel, Uniform, uniform};
 use crate::pose::{Pose, Reactions};
 use crate::segment::Segment;
-use crate::solve::System;
+use crate::solve::{Link, Links, System};
 use crate::units::Units;
 use smallvec::SmallVec;
 
@@ -225,12 +225,31 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
                     self.sticking_residual(&nodes, u, residual);
                 }
             }
-            Some((matrix, stride)) => {
-                for j in 0..nodes.len() {
-                    self.segment(&nodes, j, residual, matrix, stride);
-                }
-                self.sticking_equations(&nodes, u, residual, matrix, stride);
-            }
+            Some((matrix, stride)) => self.evaluate_matrix(u, &nodes, residual, matrix, stride),
+        }
+    }
+
+    #[cold]
+    fn evaluate_matrix(&self, u: &[f64], nodes: &Nodes, residual: &mut [f64], matrix: &mut [f64], stride: usize) {
+        let mut links = SmallVec::<[Link; 8]>::from_elem(Link::default(), nodes.len());
+        links.iter_mut().enumerate().for_each(|(j, link)| _ = self.link(nodes, j, residual, link));
+        self.write_matrix(&links, nodes, u, residual, matrix, stride);
+    }
+
+    /// Writes the Jacobian of these links, with the columns and rows of the supports that stick, if any.
+    pub(crate) fn write_matrix(
+        &self,
+        links: &[Link],
+        nodes: &Nodes,
+        u: &[f64],
+        residual: &mut [f64],
+        matrix: &mut [f64],
+        stride: usize,
+    ) {
+        Links::write(links, matrix, stride);
+        if self.any_sticks(u, nodes) {
+            self.sticking_residual(nodes, u, residual);
+            self.sticking_columns(nodes, matrix, stride);
         }
     }
 
@@ -253,16 +272,10 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         residual[3 * j..3 * j + 3].copy_from_slice(&missed);
     }
 
-    /// The three equations of segment j with their derivatives by all unknowns, and those of the segment.
+    /// Writes the three equations of segment j as a link; returns the derivatives of the segment. The sums over the supports ahead are those of their
+    /// moments about the first support, of A and of B.
     #[inline(always)]
-    pub(crate) fn segment(
-        &self,
-        nodes: &Nodes,
-        j: usize,
-        residual: &mut [f64],
-        matrix: &mut [f64],
-        stride: usize,
-    ) -> CutSensitivities {
+    pub(crate) fn link(&self, nodes: &Nodes, j: usize, residual: &mut [f64], link: &mut Link) -> CutSensitivities {
         let node = &nodes[j];
         let length = self.s_before(nodes, j) - node.s;
         let (end, d) = match self.clamp.roller() {
@@ -270,20 +283,16 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             _ => self.rod.carry_with_sensitivities(node.s, &node.cut(), node.a, node.b, length),
         };
         self.residual_of(nodes, j, &end, residual);
-        let mut put = |column: usize, v: [f64; 3]| matrix[column * stride + 3 * j..][..3].copy_from_slice(&v);
         let three = |f: &dyn Fn(usize) -> f64| [f(0), f(1), f(2)];
 
-        // Supports behind: only the one where the segment ends, and its arc length.
-        for k in 0..j {
-            for column in 3 * k..3 * k + 3 {
-                put(column, [0.0; 3]);
+        link.before = match j {
+            0 => [[0.0; 3]; 2],
+            // the support where the segment ends, and its arc length
+            _ => {
+                let Node { at, sin, cos, .. } = &nodes[j - 1];
+                [[-at.speed * cos, -at.speed * sin, -at.turning], three(&|i| d.by_to[i])]
             }
-        }
-        if j > 0 {
-            let Node { at, sin, cos, .. } = &nodes[j - 1];
-            put(3 * (j - 1), [-at.speed * cos, -at.speed * sin, -at.turning]);
-            put(3 * (j - 1) + 2, [d.by_to[0], d.by_to[1], d.by_to[2]]);
-        }
+        };
 
         // This support: its point moves the start, its angle turns start and force.
         let Support { speed, turning, .. } = node.at;
@@ -295,44 +304,30 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         let phi_by_t = if tangent { turning } else { 0.0 };
         let shift = [speed * cos, speed * sin, 0.0];
         let force_by_t = |i: usize| turning * (own_a * d.by_b[i] - own_b * d.by_a[i]);
-        put(3 * j, three(&|i| shift[i] + phi_by_t * d.by_phi[i] + moment_by_t * d.by_moment[i] + force_by_t(i)));
-        put(3 * j + 1, three(&|i| push_a * d.by_a[i] + push_b * d.by_b[i]));
-        put(3 * j + 2, three(&|i| if tangent { d.by_from[i] } else { d.by_phi[i] }));
+        link.own[0] = three(&|i| shift[i] + phi_by_t * d.by_phi[i] + moment_by_t * d.by_moment[i] + force_by_t(i));
+        link.own[1] = three(&|i| push_a * d.by_a[i] + push_b * d.by_b[i]);
+        link.own[2] = three(&|i| if tangent { d.by_from[i] } else { d.by_phi[i] });
 
-        // Supports ahead: through the force and the moment they leave here.
-        for (k, other) in nodes.iter().enumerate().skip(j + 1) {
-            let (dx, dy) = (other.at.x - node.at.x, other.at.y - node.at.y);
-            let [(own_a, own_b), (push_a, push_b)] = other.push(self.supports.grip(k));
-            let Support { speed, turning, .. } = other.at;
-            let moment_by_f = -(dx * push_a + dy * push_b);
-            let moment_by_t = -speed * other.force - turning * (dy * own_a - dx * own_b);
-            let force_by_t = |i: usize| turning * (own_a * d.by_b[i] - own_b * d.by_a[i]);
-            put(3 * k, three(&|i| moment_by_t * d.by_moment[i] + force_by_t(i)));
-            put(3 * k + 1, three(&|i| push_a * d.by_a[i] + push_b * d.by_b[i] + moment_by_f * d.by_moment[i]));
-            put(3 * k + 2, [0.0; 3]);
+        link.ahead = [[0.0; 3]; 3];
+        if nodes.len() > 1 || self.clamp.law().is_some() {
+            let first = &nodes[0].at;
+            let (x, y) = (node.at.x - first.x, node.at.y - first.y);
+            link.ahead = [
+                three(&|i| d.by_moment[i]),
+                three(&|i| d.by_a[i] + x * d.by_moment[i]),
+                three(&|i| d.by_b[i] + y * d.by_moment[i]),
+            ];
+            link.adds = [
+                [turning * (own_b * x - own_a * y) - speed * node.force, -turning * own_b, turning * own_a],
+                [-(push_a * x + push_b * y), push_a, push_b],
+            ];
         }
         if j == 0
             && let Some(law) = self.clamp.law()
         {
-            self.give_way(&law, nodes, &end, matrix, stride);
+            give_way(&law, node, &end, link);
         }
         d
-    }
-
-    /// Turns the derivatives of the end of segment 0 in the leading three rows into those of the equations of a clamp that gives way. All
-    /// unknowns change the reactions: m(0) = sum f_k ((x(0) - x_k) cos alpha_k + (y(0) - y_k) sin alpha_k).
-    fn give_way(&self, law: &ClampLaw, nodes: &Nodes, base: &Cut, matrix: &mut [f64], stride: usize) {
-        let (a, b) = (nodes[0].a, nodes[0].b);
-        for (k, node) in nodes.iter().enumerate() {
-            let (at, [(own_a, own_b), (push_a, push_b)]) = (&node.at, node.push(self.supports.grip(k)));
-            let (dx, dy) = (base.x - at.x, base.y - at.y);
-            let moment_by_t = at.turning * (dy * own_a - dx * own_b) - node.force * at.speed;
-            let by_t = [-at.turning * own_b, at.turning * own_a, moment_by_t];
-            let by_force = [push_a, push_b, dx * push_a + dy * push_b];
-            for (column, rates) in [by_t, by_force, [0.0; 3]].into_iter().enumerate() {
-                give_way_by(law, (a, b), rates, &mut matrix[(3 * k + column) * stride..][..3]);
-            }
-        }
     }
 
     /// How the rod comes from its first contact through the roller of its clamp. None without a roller or a contact, and where it does not
@@ -352,7 +347,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
 
     /// Whether a support sticks: not asked where none can.
     #[inline(always)]
-    fn any_sticks(&self, u: &[f64], nodes: &Nodes) -> bool {
+    pub(crate) fn any_sticks(&self, u: &[f64], nodes: &Nodes) -> bool {
         u.len() > 3 * nodes.len() && self.sticking().next().is_some()
     }
 
@@ -362,22 +357,6 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             Grip::Sticks { t, s } => Some((j, t, s)),
             Grip::Slips { .. } => None,
         })
-    }
-
-    /// The equations of the supports that stick, if any, with their derivatives and those by their tangential forces.
-    #[inline(always)]
-    pub(crate) fn sticking_equations(
-        &self,
-        nodes: &Nodes,
-        u: &[f64],
-        residual: &mut [f64],
-        matrix: &mut [f64],
-        stride: usize,
-    ) {
-        if self.any_sticks(u, nodes) {
-            self.sticking_residual(nodes, u, residual);
-            self.sticking_columns(nodes, matrix, stride);
-        }
     }
 
     /// How much farther each contact that sticks has gone along its curve than along the rod.
@@ -530,6 +509,19 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M
     }
 
     #[inline(always)]
+    fn evaluate_links(&self, u: &[f64], residual: &mut [f64], links: &mut Links) -> bool {
+        let mut nodes = Nodes::new();
+        self.nodes(u, &mut nodes);
+        if nodes.is_empty() || self.any_sticks(u, &nodes) {
+            return false;
+        }
+        for j in 0..nodes.len() {
+            self.link(&nodes, j, residual, links.add());
+        }
+        true
+    }
+
+    #[inline(always)]
     fn weights(&self, u: &[f64], weights: &mut [f64]) {
         let (of_all, of_sticking) = weights.split_at_mut(3 * self.supports.count());
         for (j, w) in of_all.chunks_exact_mut(3).enumerate() {
@@ -554,7 +546,21 @@ pub(crate) fn reactions(first: &Node, base: &Cut) -> Reactions {
     Reactions { f0x: -first.b, f0y: first.a, m0z: -base.moment }
 }
 
-/// One unknown of [`MultiPoint::give_way`], by which A, B and the moment at the base change at these rates: `rows` holds how the end moves.
+/// Turns the derivatives of the end of segment 0 into those of the equations of a clamp that gives way. All unknowns change the reactions:
+/// m(0) is the moment about the first support plus that of (A, B) about it.
+fn give_way(law: &ClampLaw, node: &Node, base: &Cut, link: &mut Link) {
+    let (dx, dy) = (base.x - node.at.x, base.y - node.at.y);
+    let rates = |[moment, a, b]: [f64; 3]| [a, b, moment + a * dx + b * dy];
+    let [by_t, by_force] = link.adds.map(rates);
+    for (column, rates) in link.own.iter_mut().zip([by_t, by_force, [0.0; 3]]) {
+        give_way_by(law, (node.a, node.b), rates, column);
+    }
+    for (column, unit) in link.ahead.iter_mut().zip([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
+        give_way_by(law, (node.a, node.b), rates(unit), column);
+    }
+}
+
+/// One column of [`give_way`], by which A, B and the moment at the base change at these rates: `rows` holds how the end moves.
 fn give_way_by(law: &ClampLaw, (a, b): (f64, f64), [a_rate, b_rate, moment_rate]: [f64; 3], rows: &mut [f64]) {
     let end = [rows[0], rows[1], rows[2]];
     let moment_rate = moment_rate + a * end[0] + b * end[1];

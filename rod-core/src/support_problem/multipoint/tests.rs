@@ -89,6 +89,11 @@ fn the_jacobian_is_the_derivative<C: Clamp>(
     let mut plain = vec![0.0; size];
     problem.evaluate(u, &mut plain, None);
     prop_assert_eq!(&plain, &residual);
+    let (mut links, mut by_links, mut of_links) = (Links::default(), vec![0.0; size], vec![f64::NAN; size * size]);
+    if problem.evaluate_links(u, &mut by_links, &mut links) {
+        Links::write(links.links(), &mut of_links, size);
+        prop_assert_eq!((&by_links, &of_links), (&residual, &jacobian));
+    }
     for column in 0..size {
         let h = 1e-3;
         let mut differences = vec![0.0; size];
