@@ -142,14 +142,15 @@ impl<R: PhysicalRod> System for Bordered<'_, R> {
         }
     }
 
-    fn evaluate_links(&self, z: &[f64], residual: &mut [f64], links: &mut Links) -> bool {
+    fn is_linked(&self) -> bool {
+        self.setup.problem(&self.holding, 0.0).is_linked()
+    }
+
+    fn evaluate_links(&self, z: &[f64], residual: &mut [f64], links: &mut Links) {
         let (last, size) = (z.len() - 1, z.len());
-        let is_linked = self.setup.problem(&self.holding, z[last]).evaluate_links(&z[..last], residual, links);
-        if is_linked {
-            residual[last] = self.condition_at(z);
-            links.set_border(self.by_tau(z[last]), (0..size).map(|column| self.condition_row(column, size)));
-        }
-        is_linked
+        self.setup.problem(&self.holding, z[last]).evaluate_links(&z[..last], residual, links);
+        residual[last] = self.condition_at(z);
+        links.set_border(self.by_tau(z[last]), (0..size).map(|column| self.condition_row(column, size)));
     }
 
     fn weights(&self, z: &[f64], weights: &mut [f64]) {

@@ -1,6 +1,6 @@
 //! The Jacobian of a system at a point, ready to solve: that of links in a row, or any matrix with its inverse.
 
-use super::linear::{condition, invert, multiply};
+use super::linear::{invert, multiply, norm_1, weighted_condition};
 use super::links::Links;
 use super::newton::System;
 
@@ -19,35 +19,29 @@ impl Jacobian {
     /// Takes the Jacobian of `system` at `u`, and writes the residual there; false where the Jacobian has no inverse.
     #[inline(always)]
     pub fn take(&mut self, system: &impl System, u: &[f64], residual: &mut [f64]) -> bool {
-        let is_linked = system.evaluate_links(u, residual, self.links_of(u.len()));
-        (is_linked && self.eliminate()) || self.take_matrix(|_, matrix| system.evaluate(u, residual, Some(matrix)))
+        (system.is_linked() && self.take_links(u.len(), |links| system.evaluate_links(u, residual, links)))
+            || self.take_matrix(u.len(), |matrix| system.evaluate(u, residual, Some(matrix)))
     }
 
-    /// The links of a Jacobian with `size` unknowns, to be added; then [`eliminate`](Self::eliminate).
-    #[inline(always)]
-    pub fn links_of(&mut self, size: usize) -> &mut Links {
-        self.size = size;
-        self.links.clear();
-        &mut self.links
-    }
-
-    /// Gets ready to solve by the links that were added; false where they do not give all digits: then
+    /// Takes the links that `add` adds, of a Jacobian with `size` unknowns; false where their elimination loses too many digits: then
     /// [`take_matrix`](Self::take_matrix).
     #[inline(always)]
-    pub fn eliminate(&mut self) -> bool {
+    pub fn take_links(&mut self, size: usize, add: impl FnOnce(&mut Links)) -> bool {
+        self.size = size;
+        self.links.clear();
+        add(&mut self.links);
         self.is_linked = self.links.eliminate();
         self.is_linked
     }
 
-    /// Takes the whole matrix, which `write` writes column by column; false where it has no inverse.
-    #[inline(never)]
-    pub fn take_matrix(&mut self, write: impl FnOnce(&Links, &mut [f64])) -> bool {
-        let Self { size, is_linked, links, matrix, inverse } = self;
-        *is_linked = false;
-        matrix.resize(*size * *size, 0.0);
-        inverse.resize(*size * *size, 0.0);
-        write(links, matrix);
-        invert(*size, matrix, inverse)
+    /// Takes the whole matrix with `size` unknowns, which `write` writes column by column; false where it has no inverse.
+    #[inline(always)]
+    pub fn take_matrix(&mut self, size: usize, write: impl FnOnce(&mut [f64])) -> bool {
+        (self.size, self.is_linked) = (size, false);
+        self.matrix.resize(size * size, 0.0);
+        self.inverse.resize(size * size, 0.0);
+        write(&mut self.matrix);
+        invert(size, &self.matrix, &mut self.inverse)
     }
 
     /// Writes it into the leading block of a column-major matrix with `stride` rows.
@@ -64,18 +58,9 @@ impl Jacobian {
     #[inline(always)]
     pub fn correction(&self, residual: &[f64], step: &mut [f64]) {
         if self.is_linked {
-            step.iter_mut().zip(residual).for_each(|(step, left)| *step = -left);
-            self.links.solve(step.as_chunks_mut::<1>().0, usize::MAX);
+            self.links.correction(residual, step);
         } else {
             multiply(&self.inverse, residual, -1.0, step);
-        }
-    }
-
-    /// The same to all digits, where no later correction restores them.
-    pub fn refined_correction(&self, residual: &[f64], step: &mut [f64]) {
-        self.correction(residual, step);
-        if self.is_linked {
-            self.links.refine(residual, step);
         }
     }
 
@@ -89,13 +74,24 @@ impl Jacobian {
         }
     }
 
-    /// Condition number in the 1-norm, with each unknown in units of 1 / `weight`.
+    /// Condition number in the 1-norm.
     #[inline(always)]
-    pub fn condition(&self, weight: impl Fn(usize) -> f64) -> f64 {
+    pub fn condition(&self) -> f64 {
         if self.is_linked {
-            self.links.condition(weight)
+            self.links.condition(|_| 1.0)
+        } else if self.size == 0 {
+            1.0
         } else {
-            condition(self.size, &self.matrix, &self.inverse, weight)
+            norm_1(self.size, &self.matrix) * norm_1(self.size, &self.inverse)
+        }
+    }
+
+    /// The same with each unknown in units of 1 / its weight.
+    pub fn weighted_condition(&self, weights: &[f64]) -> f64 {
+        if self.is_linked {
+            self.links.condition(|i| weights[i])
+        } else {
+            weighted_condition(&self.matrix, &self.inverse, weights)
         }
     }
 }

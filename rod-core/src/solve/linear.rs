@@ -1,4 +1,4 @@
-//! Inverse of a small dense matrix, on the stack up to the dimension of three contacts that stick.
+//! Inverse of a small dense matrix, on the stack up to the dimension of eight contacts.
 
 use nalgebra::{DMatrix, SMatrix};
 
@@ -27,9 +27,9 @@ pub(crate) fn invert(dimension: usize, a: &[f64], inverse: &mut [f64]) -> bool {
             }
         };
     }
-    // 3 n of a boundary-value problem, one more for each contact that sticks, and one more of its continuation along a path, n <= 3; links
-    // in a row need no more than 4
-    of_known_size!(closed: 1 2 3 4; columns: 5 6 7 8 9 10 11 12 13) && inverse.iter().all(|v| v.is_finite())
+    // 3 n of a boundary-value problem and 3 n + 1 of its continuation along a path, n <= 8; one more for each of up to two contacts that stick
+    of_known_size!(closed: 1 2 3 4; columns: 5 6 7 8 9 10 11 12 13 15 16 18 19 21 22 24 25)
+        && inverse.iter().all(|v| v.is_finite())
 }
 
 /// Inverts a matrix, given by its columns, in place, with partial pivoting; false where a pivot vanishes.
@@ -64,18 +64,22 @@ fn gauss_jordan<const N: usize>(columns: &mut [[f64; N]]) -> bool {
     true
 }
 
-/// Condition number of the column-major square matrix `a` in the 1-norm, with each unknown in units of 1 / `weight`; 1 of an empty one.
-#[inline(always)]
-pub(crate) fn condition(dimension: usize, a: &[f64], inverse: &[f64], weight: impl Fn(usize) -> f64) -> f64 {
-    if dimension == 0 {
+/// Largest column sum of the column-major square matrix `a`.
+pub(crate) fn norm_1(dimension: usize, a: &[f64]) -> f64 {
+    a.chunks_exact(dimension.max(1)).map(|column| column.iter().map(|v| v.abs()).sum()).fold(0.0, f64::max)
+}
+
+/// Condition number in the 1-norm with unknowns in their natural sizes.
+pub(crate) fn weighted_condition(matrix: &[f64], inverse: &[f64], weights: &[f64]) -> f64 {
+    let size = weights.len();
+    if size == 0 {
         return 1.0;
     }
-    let (mut most, mut most_of_inverse) = (0.0_f64, 0.0_f64);
-    for (k, (column, solution)) in a.chunks_exact(dimension).zip(inverse.chunks_exact(dimension)).enumerate() {
-        most = most.max(column.iter().map(|v| v.abs()).sum::<f64>() / weight(k));
-        most_of_inverse = most_of_inverse.max(solution.iter().enumerate().map(|(i, v)| (v * weight(i)).abs()).sum());
-    }
-    most * most_of_inverse
+    let columns = matrix.chunks_exact(size).zip(weights);
+    let most = columns.map(|(column, w)| column.iter().map(|v| v.abs()).sum::<f64>() / w).fold(0.0, f64::max);
+    let columns = inverse.chunks_exact(size);
+    let sums = columns.map(|column| column.iter().zip(weights).map(|(v, w)| (v * w).abs()).sum::<f64>());
+    most * sums.fold(0.0, f64::max)
 }
 
 /// `out` = `scale` * `a` `x` for a column-major square matrix.

@@ -17,11 +17,14 @@ pub trait System {
     /// with old content: every entry must be written.
     fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>);
 
-    /// Writes F(u), and its Jacobian as that of links in a row, to which `links` it is added; false by default, and where it is no such
-    /// Jacobian. Newton's method then costs as much as there are links, and does not ask for the whole matrix.
-    fn evaluate_links(&self, _u: &[f64], _residual: &mut [f64], _links: &mut Links) -> bool {
+    /// Whether the Jacobian is that of links in a row, which [`evaluate_links`](Self::evaluate_links) writes: then Newton's method costs as much
+    /// as there are links, and asks for the whole matrix only where that is more exact. False by default.
+    fn is_linked(&self) -> bool {
         false
     }
+
+    /// Writes F(u), and adds the links of its Jacobian to `links`, which comes empty. Called where [`is_linked`](Self::is_linked) alone.
+    fn evaluate_links(&self, _u: &[f64], _residual: &mut [f64], _links: &mut Links) {}
 
     /// Writes the weight of each unknown in the norm that judges corrections (1 / its natural size). All 1 by default.
     fn weights(&self, _u: &[f64], weights: &mut [f64]) {
@@ -38,8 +41,12 @@ impl<S: System + ?Sized> System for &S {
         (**self).evaluate(u, residual, jacobian);
     }
 
-    fn evaluate_links(&self, u: &[f64], residual: &mut [f64], links: &mut Links) -> bool {
-        (**self).evaluate_links(u, residual, links)
+    fn is_linked(&self) -> bool {
+        (**self).is_linked()
+    }
+
+    fn evaluate_links(&self, u: &[f64], residual: &mut [f64], links: &mut Links) {
+        (**self).evaluate_links(u, residual, links);
     }
 
     fn weights(&self, u: &[f64], weights: &mut [f64]) {
@@ -157,9 +164,9 @@ impl NewtonWorkspace {
     ) -> SolveReport {
         system.evaluate(u, &mut self.residual, None);
         let residual = largest(&self.residual);
-        let condition = self.jacobian.condition(|_| 1.0);
+        let condition = self.jacobian.condition();
         let lost =
-            status.is_solved() && condition > NO_DIGIT && self.jacobian.condition(|i| self.weights[i]) > NO_DIGIT;
+            status.is_solved() && condition > NO_DIGIT && self.jacobian.weighted_condition(&self.weights) > NO_DIGIT;
         let status = if lost { SolveStatus::Singular } else { status };
         SolveReport { status, iterations, residual, condition, correction }
     }

@@ -11,7 +11,7 @@ use crate::clamp::{Clamp, ClampLaw, Passage, product};
 use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::pose::{Pose, Reactions};
 use crate::solve::jacobian::Jacobian;
-use crate::solve::linear::{condition, invert};
+use crate::solve::linear::{invert, weighted_condition};
 use smallvec::SmallVec;
 
 /// The change of a support's point and tangent angle per unit of something, at a fixed parameter of its curve.
@@ -64,9 +64,6 @@ pub struct PathRow {
 }
 
 type Vector = SmallVec<[f64; 25]>;
-
-/// Numbers of contacts whose matrix is inverted as a whole.
-const SMALL: std::ops::RangeInclusive<usize> = 2..=3;
 
 /// A [`MultiPoint`] problem to first order about a solution.
 ///
@@ -146,27 +143,27 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         let mut residual = Vector::from_elem(0.0, size);
         let mut jacobian = Jacobian::default();
         let mut held = Vec::with_capacity(count);
-        let links = jacobian.links_of(size);
-        for (j, node) in nodes.iter().enumerate() {
-            let segment = self.link(&nodes, j, &mut residual, links.add());
-            held.push(Held {
-                node: *node,
-                tangent: self.supports.hold(j) != Hold::Tip,
-                grip: self.supports.grip(j),
-                segment,
+        let hold = |j: usize, segment| Held {
+            node: nodes[j],
+            tangent: self.supports.hold(j) != Hold::Tip,
+            grip: self.supports.grip(j),
+            segment,
+        };
+        let is_eliminated = self.is_linked()
+            && jacobian.take_links(size, |links| {
+                held.extend((0..count).map(|j| hold(j, self.link(&nodes, j, &mut residual, links.add()))));
             });
-        }
-        // the inverse of a small matrix costs less than refined solutions
-        let is_small = SMALL.contains(&count);
-        let is_regular = (!is_small && !self.any_sticks(u, &nodes) && jacobian.eliminate())
-            || jacobian.take_matrix(|links, matrix| {
-                self.write_matrix(links.links(), &nodes, u, &mut residual, matrix, size);
+        let is_regular = is_eliminated
+            || jacobian.take_matrix(size, |matrix| {
+                held.clear();
+                held.extend((0..count).map(|j| hold(j, self.segment(&nodes, j, &mut residual, matrix, size))));
+                self.sticking_equations(&nodes, u, &mut residual, matrix, size);
             });
         let mut weights: Vector = nodes.iter().flat_map(|node| natural_sizes(&node.at, node.force)).collect();
         weights.extend(u[3 * count..].iter().map(|friction| friction_size(*friction)));
         let (base, law) = (self.base_of(&nodes), self.clamp.law().map(Box::new));
         let passage = self.passage(&nodes).map(Box::new);
-        let condition = if is_regular { jacobian.condition(|i| weights[i]) } else { f64::INFINITY };
+        let condition = if is_regular { jacobian.weighted_condition(&weights) } else { f64::INFINITY };
         Linearisation { base, law, passage, held, residual, jacobian, condition, weights }
     }
 }
@@ -281,7 +278,7 @@ impl Linearisation {
             return None;
         }
         let mut unknowns = Vector::from_elem(0.0, rates.len());
-        self.jacobian.refined_correction(rates, &mut unknowns);
+        self.jacobian.correction(rates, &mut unknowns);
         Some(self.node_rates(supports, rubs, Some(&unknowns)))
     }
 
@@ -336,7 +333,7 @@ impl Linearisation {
         }
         let mut weights = self.weights.clone();
         weights.push(1.0);
-        let condition = condition(whole, &bordered, &inverse, |i| weights[i]);
+        let condition = weighted_condition(&bordered, &inverse, &weights);
         let mut by_residual: SmallVec<[f64; 25]> = inverse.chunks_exact(whole).map(|column| column[size]).collect();
         let by_value = by_residual.pop()?;
         Some(PathRow { by_residual, by_value, condition })

@@ -168,6 +168,10 @@ pub(crate) fn friction_size(friction: f64) -> f64 {
     0.25 / (1.0 + friction.abs())
 }
 
+/// Number of contacts from which on the Jacobian is that of links. The inverse of a smaller matrix has a fixed size and is nearly as fast or
+/// faster, and its rounding is known.
+const LEAST_LINKS: usize = 4;
+
 pub(crate) type Nodes = SmallVec<[Node; 8]>;
 
 impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
@@ -225,31 +229,12 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
                     self.sticking_residual(&nodes, u, residual);
                 }
             }
-            Some((matrix, stride)) => self.evaluate_matrix(u, &nodes, residual, matrix, stride),
-        }
-    }
-
-    #[cold]
-    fn evaluate_matrix(&self, u: &[f64], nodes: &Nodes, residual: &mut [f64], matrix: &mut [f64], stride: usize) {
-        let mut links = SmallVec::<[Link; 8]>::from_elem(Link::default(), nodes.len());
-        links.iter_mut().enumerate().for_each(|(j, link)| _ = self.link(nodes, j, residual, link));
-        self.write_matrix(&links, nodes, u, residual, matrix, stride);
-    }
-
-    /// Writes the Jacobian of these links, with the columns and rows of the supports that stick, if any.
-    pub(crate) fn write_matrix(
-        &self,
-        links: &[Link],
-        nodes: &Nodes,
-        u: &[f64],
-        residual: &mut [f64],
-        matrix: &mut [f64],
-        stride: usize,
-    ) {
-        Links::write(links, matrix, stride);
-        if self.any_sticks(u, nodes) {
-            self.sticking_residual(nodes, u, residual);
-            self.sticking_columns(nodes, matrix, stride);
+            Some((matrix, stride)) => {
+                for j in 0..nodes.len() {
+                    self.segment(&nodes, j, residual, matrix, stride);
+                }
+                self.sticking_equations(&nodes, u, residual, matrix, stride);
+            }
         }
     }
 
@@ -272,10 +257,56 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         residual[3 * j..3 * j + 3].copy_from_slice(&missed);
     }
 
-    /// Writes the three equations of segment j as a link; returns the derivatives of the segment. The sums over the supports ahead are those of their
-    /// moments about the first support, of A and of B.
+    /// The three equations of segment j with their derivatives by all unknowns, and those of the segment.
     #[inline(always)]
-    pub(crate) fn link(&self, nodes: &Nodes, j: usize, residual: &mut [f64], link: &mut Link) -> CutSensitivities {
+    pub(crate) fn segment(
+        &self,
+        nodes: &Nodes,
+        j: usize,
+        residual: &mut [f64],
+        matrix: &mut [f64],
+        stride: usize,
+    ) -> CutSensitivities {
+        let (end, d) = self.end(nodes, j, residual);
+        let node = &nodes[j];
+        let mut put = |column: usize, v: [f64; 3]| matrix[column * stride + 3 * j..][..3].copy_from_slice(&v);
+        for k in 0..j {
+            for column in 3 * k..3 * k + 3 {
+                put(column, [0.0; 3]);
+            }
+        }
+        if j > 0 {
+            let [by_t, by_s] = by_support_behind(&nodes[j - 1], &d);
+            put(3 * (j - 1), by_t);
+            put(3 * (j - 1) + 2, by_s);
+        }
+        for (unknown, column) in self.by_own_support(nodes, j, &d).into_iter().enumerate() {
+            put(3 * j + unknown, column);
+        }
+
+        // Supports ahead: through the force and the moment they leave here.
+        for (k, other) in nodes.iter().enumerate().skip(j + 1) {
+            let (dx, dy) = (other.at.x - node.at.x, other.at.y - node.at.y);
+            let [(own_a, own_b), (push_a, push_b)] = other.push(self.supports.grip(k));
+            let Support { speed, turning, .. } = other.at;
+            let moment_by_f = -(dx * push_a + dy * push_b);
+            let moment_by_t = -speed * other.force - turning * (dy * own_a - dx * own_b);
+            let force_by_t = |i: usize| turning * (own_a * d.by_b[i] - own_b * d.by_a[i]);
+            put(3 * k, three(&|i| moment_by_t * d.by_moment[i] + force_by_t(i)));
+            put(3 * k + 1, three(&|i| push_a * d.by_a[i] + push_b * d.by_b[i] + moment_by_f * d.by_moment[i]));
+            put(3 * k + 2, [0.0; 3]);
+        }
+        if j == 0
+            && let Some(law) = self.clamp.law()
+        {
+            self.give_way(&law, nodes, &end, matrix, stride);
+        }
+        d
+    }
+
+    /// The end of segment j with its derivatives; writes the three equations.
+    #[inline(always)]
+    fn end(&self, nodes: &Nodes, j: usize, residual: &mut [f64]) -> (Cut, CutSensitivities) {
         let node = &nodes[j];
         let length = self.s_before(nodes, j) - node.s;
         let (end, d) = match self.clamp.roller() {
@@ -283,18 +314,14 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             _ => self.rod.carry_with_sensitivities(node.s, &node.cut(), node.a, node.b, length),
         };
         self.residual_of(nodes, j, &end, residual);
-        let three = |f: &dyn Fn(usize) -> f64| [f(0), f(1), f(2)];
+        (end, d)
+    }
 
-        link.before = match j {
-            0 => [[0.0; 3]; 2],
-            // the support where the segment ends, and its arc length
-            _ => {
-                let Node { at, sin, cos, .. } = &nodes[j - 1];
-                [[-at.speed * cos, -at.speed * sin, -at.turning], three(&|i| d.by_to[i])]
-            }
-        };
-
-        // This support: its point moves the start, its angle turns start and force.
+    /// The derivatives of the end of segment j by the unknowns of its own support: its point moves the start, its angle turns start and
+    /// force.
+    #[inline(always)]
+    fn by_own_support(&self, nodes: &Nodes, j: usize, d: &CutSensitivities) -> [[f64; 3]; 3] {
+        let node = &nodes[j];
         let Support { speed, turning, .. } = node.at;
         let (sin, cos) = (node.sin, node.cos);
         let [(own_a, own_b), (push_a, push_b)] = node.push(self.supports.grip(j));
@@ -304,30 +331,64 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         let phi_by_t = if tangent { turning } else { 0.0 };
         let shift = [speed * cos, speed * sin, 0.0];
         let force_by_t = |i: usize| turning * (own_a * d.by_b[i] - own_b * d.by_a[i]);
-        link.own[0] = three(&|i| shift[i] + phi_by_t * d.by_phi[i] + moment_by_t * d.by_moment[i] + force_by_t(i));
-        link.own[1] = three(&|i| push_a * d.by_a[i] + push_b * d.by_b[i]);
-        link.own[2] = three(&|i| if tangent { d.by_from[i] } else { d.by_phi[i] });
+        [
+            three(&|i| shift[i] + phi_by_t * d.by_phi[i] + moment_by_t * d.by_moment[i] + force_by_t(i)),
+            three(&|i| push_a * d.by_a[i] + push_b * d.by_b[i]),
+            three(&|i| if tangent { d.by_from[i] } else { d.by_phi[i] }),
+        ]
+    }
 
-        link.ahead = [[0.0; 3]; 3];
-        if nodes.len() > 1 || self.clamp.law().is_some() {
-            let first = &nodes[0].at;
-            let (x, y) = (node.at.x - first.x, node.at.y - first.y);
-            link.ahead = [
+    /// Whether the Jacobian is that of [links](Links), which [`link`](Self::link) writes, rather than a matrix. A contact that sticks has
+    /// an unknown more than a link.
+    #[inline(always)]
+    pub(crate) fn is_linked(&self) -> bool {
+        self.supports.count() >= LEAST_LINKS && self.sticking().next().is_none()
+    }
+
+    /// Writes the three equations of segment j, and their derivatives as a link; returns those of the segment. The sums over the supports
+    /// ahead are those of their moments about the first support, of A and of B.
+    #[inline(always)]
+    pub(crate) fn link(&self, nodes: &Nodes, j: usize, residual: &mut [f64], link: &mut Link) -> CutSensitivities {
+        let (end, d) = self.end(nodes, j, residual);
+        let (node, first) = (&nodes[j], &nodes[0].at);
+        let (x, y) = (node.at.x - first.x, node.at.y - first.y);
+        let [(own_a, own_b), (push_a, push_b)] = node.push(self.supports.grip(j));
+        let Support { speed, turning, .. } = node.at;
+        *link = Link {
+            own: self.by_own_support(nodes, j, &d),
+            ahead: [
                 three(&|i| d.by_moment[i]),
                 three(&|i| d.by_a[i] + x * d.by_moment[i]),
                 three(&|i| d.by_b[i] + y * d.by_moment[i]),
-            ];
-            link.adds = [
+            ],
+            before: if j > 0 { by_support_behind(&nodes[j - 1], &d) } else { [[0.0; 3]; 2] },
+            adds: [
                 [turning * (own_b * x - own_a * y) - speed * node.force, -turning * own_b, turning * own_a],
                 [-(push_a * x + push_b * y), push_a, push_b],
-            ];
-        }
+            ],
+        };
         if j == 0
             && let Some(law) = self.clamp.law()
         {
             give_way(&law, node, &end, link);
         }
         d
+    }
+
+    /// Turns the derivatives of the end of segment 0 in the leading three rows into those of the equations of a clamp that gives way. All
+    /// unknowns change the reactions: m(0) = sum f_k ((x(0) - x_k) cos alpha_k + (y(0) - y_k) sin alpha_k).
+    fn give_way(&self, law: &ClampLaw, nodes: &Nodes, base: &Cut, matrix: &mut [f64], stride: usize) {
+        let (a, b) = (nodes[0].a, nodes[0].b);
+        for (k, node) in nodes.iter().enumerate() {
+            let (at, [(own_a, own_b), (push_a, push_b)]) = (&node.at, node.push(self.supports.grip(k)));
+            let (dx, dy) = (base.x - at.x, base.y - at.y);
+            let moment_by_t = at.turning * (dy * own_a - dx * own_b) - node.force * at.speed;
+            let by_t = [-at.turning * own_b, at.turning * own_a, moment_by_t];
+            let by_force = [push_a, push_b, dx * push_a + dy * push_b];
+            for (column, rates) in [by_t, by_force, [0.0; 3]].into_iter().enumerate() {
+                give_way_by(law, (a, b), rates, &mut matrix[(3 * k + column) * stride..][..3]);
+            }
+        }
     }
 
     /// How the rod comes from its first contact through the roller of its clamp. None without a roller or a contact, and where it does not
@@ -347,7 +408,7 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
 
     /// Whether a support sticks: not asked where none can.
     #[inline(always)]
-    pub(crate) fn any_sticks(&self, u: &[f64], nodes: &Nodes) -> bool {
+    fn any_sticks(&self, u: &[f64], nodes: &Nodes) -> bool {
         u.len() > 3 * nodes.len() && self.sticking().next().is_some()
     }
 
@@ -357,6 +418,22 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             Grip::Sticks { t, s } => Some((j, t, s)),
             Grip::Slips { .. } => None,
         })
+    }
+
+    /// The equations of the supports that stick, if any, with their derivatives and those by their tangential forces.
+    #[inline(always)]
+    pub(crate) fn sticking_equations(
+        &self,
+        nodes: &Nodes,
+        u: &[f64],
+        residual: &mut [f64],
+        matrix: &mut [f64],
+        stride: usize,
+    ) {
+        if self.any_sticks(u, nodes) {
+            self.sticking_residual(nodes, u, residual);
+            self.sticking_columns(nodes, matrix, stride);
+        }
     }
 
     /// How much farther each contact that sticks has gone along its curve than along the rod.
@@ -509,16 +586,17 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M
     }
 
     #[inline(always)]
-    fn evaluate_links(&self, u: &[f64], residual: &mut [f64], links: &mut Links) -> bool {
+    fn is_linked(&self) -> bool {
+        self.is_linked()
+    }
+
+    #[inline(never)]
+    fn evaluate_links(&self, u: &[f64], residual: &mut [f64], links: &mut Links) {
         let mut nodes = Nodes::new();
         self.nodes(u, &mut nodes);
-        if nodes.is_empty() || self.any_sticks(u, &nodes) {
-            return false;
-        }
         for j in 0..nodes.len() {
             self.link(&nodes, j, residual, links.add());
         }
-        true
     }
 
     #[inline(always)]
@@ -546,8 +624,19 @@ pub(crate) fn reactions(first: &Node, base: &Cut) -> Reactions {
     Reactions { f0x: -first.b, f0y: first.a, m0z: -base.moment }
 }
 
-/// Turns the derivatives of the end of segment 0 into those of the equations of a clamp that gives way. All unknowns change the reactions:
-/// m(0) is the moment about the first support plus that of (A, B) about it.
+#[inline(always)]
+fn three(f: &dyn Fn(usize) -> f64) -> [f64; 3] {
+    [f(0), f(1), f(2)]
+}
+
+/// The derivatives of the end of a segment by t and s of the support behind, where it ends: by no other unknown of the supports behind.
+#[inline(always)]
+fn by_support_behind(Node { at, sin, cos, .. }: &Node, d: &CutSensitivities) -> [[f64; 3]; 2] {
+    [[-at.speed * cos, -at.speed * sin, -at.turning], three(&|i| d.by_to[i])]
+}
+
+/// Turns the derivatives of the end of segment 0 into those of the equations of a clamp that gives way, as [`MultiPoint::give_way`]: m(0)
+/// is the sum of the moments about the first support plus the moment of (A, B) about it.
 fn give_way(law: &ClampLaw, node: &Node, base: &Cut, link: &mut Link) {
     let (dx, dy) = (base.x - node.at.x, base.y - node.at.y);
     let rates = |[moment, a, b]: [f64; 3]| [a, b, moment + a * dx + b * dy];
@@ -560,7 +649,7 @@ fn give_way(law: &ClampLaw, node: &Node, base: &Cut, link: &mut Link) {
     }
 }
 
-/// One column of [`give_way`], by which A, B and the moment at the base change at these rates: `rows` holds how the end moves.
+/// One unknown of [`MultiPoint::give_way`], by which A, B and the moment at the base change at these rates: `rows` holds how the end moves.
 fn give_way_by(law: &ClampLaw, (a, b): (f64, f64), [a_rate, b_rate, moment_rate]: [f64; 3], rows: &mut [f64]) {
     let end = [rows[0], rows[1], rows[2]];
     let moment_rate = moment_rate + a * end[0] + b * end[1];
