@@ -177,7 +177,7 @@ fn works() -> Vec<Work> {
             times * states.len()
         }));
     }
-    for contacts in [1, 8] {
+    for contacts in [1, 2, 3, 4, 8, 16] {
         works.push(Work::new(format!("warm solve between discs, contacts: {contacts}"), [100, 300], move |times| {
             Warm::new(contacts).solve(times, &mut Vec::new(), &mut NewtonWorkspace::new())
         }));

@@ -83,7 +83,8 @@ pub use segment::{
 };
 #[cfg(feature = "std")]
 pub use solve::{
-    NewtonOptions, NewtonWorkspace, Root, SolveReport, SolveStatus, StepOutcome, System, find_root, newton_step, solve,
+    Link, Links, NewtonOptions, NewtonWorkspace, Root, SolveReport, SolveStatus, StepOutcome, System, find_root,
+    newton_step, solve,
 };
 #[cfg(feature = "argmin")]
 pub use solve::{

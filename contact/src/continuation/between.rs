@@ -77,7 +77,7 @@ impl<R: PhysicalRod> Stepper<'_, R> {
         let direction = self.corrector.direction(here.z.len());
         from.quality.stable
             && from.tangent.by_tau() > LIMITS.step.least_tau_rate
-            && from.tangent.cosine(direction) > LIMITS.step.least_cosine
+            && from.tangent.cosine(&direction) > LIMITS.step.least_cosine
             && Scanner::wraps_nowhere(&self.corrector.setup, here, scan)
     }
 

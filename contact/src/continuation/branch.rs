@@ -5,7 +5,7 @@ use crate::contact_set::{ActiveContact, ActiveSupports, Configuration, Unknown, 
 use crate::limits::LIMITS;
 use crate::scene::Setup;
 use rod_core::{
-    NewtonOptions, NewtonWorkspace, PhysicalRod, Rod, SolveReport, SolveStatus, System, newton_step, solve,
+    Links, NewtonOptions, NewtonWorkspace, PhysicalRod, Rod, SolveReport, SolveStatus, System, newton_step, solve,
 };
 #[cfg(feature = "argmin")]
 use rod_core::{TrustRegionSearch, solve_by_trust_region};
@@ -89,6 +89,20 @@ struct Bordered<'a, R = Rod> {
 }
 
 impl<R: PhysicalRod> Bordered<'_, R> {
+    fn condition_at(&self, z: &[f64]) -> f64 {
+        match self.condition {
+            Condition::Fixed { unknown, value } => z[unknown.index(z.len())] - value,
+            Condition::OnCone { friction, force, ratio } => z[friction] - ratio * z[force],
+            Condition::Plane { tangent, from, distance } => tangent.along(z, from) - distance,
+        }
+    }
+
+    /// The change of the first three equations with tau, which moves the clamp: only the first segment ends there.
+    fn by_tau(&self, tau: f64) -> [f64; 3] {
+        let rate = self.setup.path.rate(tau);
+        [-rate.x, -rate.y, -rate.phi]
+    }
+
     fn condition_row(&self, column: usize, size: usize) -> f64 {
         match self.condition {
             Condition::Fixed { unknown, .. } => f64::from(u8::from(unknown.index(size) == column)),
@@ -113,11 +127,7 @@ impl<R: PhysicalRod> System for Bordered<'_, R> {
     fn evaluate(&self, z: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
         let (last, size) = (z.len() - 1, z.len());
         let problem = self.setup.problem(&self.holding, z[last]);
-        residual[last] = match self.condition {
-            Condition::Fixed { unknown, value } => z[unknown.index(size)] - value,
-            Condition::OnCone { friction, force, ratio } => z[friction] - ratio * z[force],
-            Condition::Plane { tangent, from, distance } => tangent.along(z, from) - distance,
-        };
+        residual[last] = self.condition_at(z);
         match jacobian {
             None => problem.evaluate_into(&z[..last], residual, None),
             Some(matrix) => {
@@ -125,15 +135,22 @@ impl<R: PhysicalRod> System for Bordered<'_, R> {
                 for column in 0..size {
                     matrix[column * size + last] = self.condition_row(column, size);
                 }
-                // the clamp moves: only the first segment ends there
-                let rate = self.setup.path.rate(z[last]);
                 let by_tau = &mut matrix[last * size..][..last];
                 by_tau.fill(0.0);
-                for (entry, rate) in by_tau.iter_mut().zip([rate.x, rate.y, rate.phi]) {
-                    *entry = -rate;
-                }
+                by_tau.iter_mut().zip(self.by_tau(z[last])).for_each(|(entry, rate)| *entry = rate);
             }
         }
+    }
+
+    fn is_linked(&self) -> bool {
+        self.setup.problem(&self.holding, 0.0).is_linked()
+    }
+
+    fn evaluate_links(&self, z: &[f64], residual: &mut [f64], links: &mut Links) {
+        let (last, size) = (z.len() - 1, z.len());
+        self.setup.problem(&self.holding, z[last]).evaluate_links(&z[..last], residual, links);
+        residual[last] = self.condition_at(z);
+        links.set_border(self.by_tau(z[last]), (0..size).map(|column| self.condition_row(column, size)));
     }
 
     fn weights(&self, z: &[f64], weights: &mut [f64]) {
@@ -229,13 +246,15 @@ impl<'a, R: PhysicalRod> Corrector<'a, R> {
         self.inspect(configuration, Condition::Fixed { unknown: Unknown::Path, value: configuration.tau() })
     }
 
-    /// The direction of the branch, of any length, for `size` unknowns: the last column of the inverse Jacobian that the workspace holds. If
-    /// the pose was fixed in the last solve, tau grows along it.
-    pub fn direction(&self, size: usize) -> &[f64] {
-        &self.workspace.inverse()[size * (size - 1)..][..size]
+    /// The direction of the branch, of any length, for `size` unknowns: the last column of the inverse of the last Jacobian. If the pose was
+    /// fixed in the last solve, tau grows along it.
+    pub fn direction(&self, size: usize) -> Unknowns {
+        let mut column = Unknowns::from_elem(0.0, size);
+        self.workspace.last_column(&mut column);
+        column
     }
 
-    /// The tangent at `configuration` by the inverse Jacobian that the workspace holds.
+    /// The tangent at `configuration` by the Jacobian that the workspace holds.
     fn tangent(&self, configuration: &Configuration) -> Tangent {
         let size = configuration.z.len();
         let column = self.direction(size);

@@ -189,7 +189,11 @@ impl<'a> World<'a> {
 
     /// The number of the object that a stretch belongs to.
     pub fn object(&self, stretch: usize) -> usize {
-        self.first.partition_point(|first| *first <= stretch).saturating_sub(1)
+        if self.objects.len() == 1 {
+            0
+        } else {
+            self.first.partition_point(|first| *first <= stretch).saturating_sub(1)
+        }
     }
 
     /// The object of a stretch, and the number of the stretch in it.
@@ -286,6 +290,11 @@ impl<'a> World<'a> {
     /// The same where a stretch may be a loop.
     #[cold]
     fn support_on_loop(&self, stretch: usize, t: f64) -> Support {
+        let (object, own) = self.at(stretch);
+        let unit = self.unit((object, own));
+        if object.own_range(own).contains(t * unit) {
+            return self.support_of(object, own, unit, t);
+        }
         let (t, turn) = self.around(stretch, t).unwrap_or((t, 0.0));
         let there = self.support_within(stretch, t);
         Support { alpha: there.alpha + turn, ..there }
@@ -295,7 +304,12 @@ impl<'a> World<'a> {
     #[inline(always)]
     fn support_within(&self, stretch: usize, t: f64) -> Support {
         let (object, own) = self.at(stretch);
-        let unit = self.unit((object, own));
+        self.support_of(object, own, self.unit((object, own)), t)
+    }
+
+    /// The same of a stretch of an object, in whose parameter `unit` counts as 1.
+    #[inline(always)]
+    fn support_of(&self, object: &Composite, own: usize, unit: f64, t: f64) -> Support {
         let Frame { x, y, alpha, speed, turning } = object.own_frame(own, t * unit);
         Support {
             x: x / self.length,
@@ -314,11 +328,11 @@ impl<'a> World<'a> {
 
     /// A parameter of a loop beyond its range as the one within, and the angle by which the tangent has turned on the rounds between.
     fn around(&self, stretch: usize, t: f64) -> Option<(f64, f64)> {
-        if !self.is_loop(stretch) {
+        if !self.has_loops {
             return None;
         }
         let Range { from, to } = self.range(stretch);
-        if (from..=to).contains(&t) {
+        if (from..=to).contains(&t) || !self.is_loop(stretch) {
             return None;
         }
         let rounds = ((t - from) / (to - from)).floor();
@@ -462,10 +476,12 @@ impl<'a> World<'a> {
 
     /// Whether a stretch is part of a run at the parameter `t`.
     pub fn is_on_run(&self, run: usize, stretch: usize, t: f64) -> bool {
+        if self.object_of_run(run) != self.object(stretch) {
+            return false;
+        }
         let (object, own) = self.at(stretch);
         let (unit, t) = (self.unit((object, own)), self.within(stretch, t));
-        self.object_of_run(run) == self.object(stretch)
-            && object.run_holds(run - self.first_run[self.object(stretch)], own, t * unit)
+        object.run_holds(run - self.first_run[self.object(stretch)], own, t * unit)
     }
 
     /// The point of a stretch at `t` as the foot of a point `(x, y)` that touches it there.
@@ -531,7 +547,8 @@ impl<'a> World<'a> {
         let t = self.within(stretch, t);
         let here = self.support(stretch, t);
         // a curve that is smooth where it closes has no border there
-        let border = if self.is_loop(stretch) { ahead * f64::INFINITY } else { self.border(stretch, ahead > 0.0) };
+        let is_loop = self.is_loop(stretch);
+        let border = if is_loop { ahead * f64::INFINITY } else { self.border(stretch, ahead > 0.0) };
         let (sin, cos) = here.alpha.sin_cos();
         let mut reach = AHEAD * length / here.speed;
         if outward && here.turning > 0.0 {
@@ -558,7 +575,7 @@ impl<'a> World<'a> {
             }
             let unit = self.unit((object, own));
             let (range, whole) = (Range { from: t.min(to) * unit, to: t.max(to) * unit }, object.own_range(own));
-            let beyond = self.is_loop(stretch) && !whole.contains(to * unit);
+            let beyond = is_loop && !whole.contains(to * unit);
             let (least, largest) = self.curvature(object, own, if beyond { whole } else { range });
             // where it bends both ways the ends do not tell the largest turn
             if least < 0.0 && largest > 0.0 && 2.0 * reach * here.speed * least.abs().max(largest) > most {

@@ -69,6 +69,19 @@ pub(crate) fn norm_1(dimension: usize, a: &[f64]) -> f64 {
     a.chunks_exact(dimension.max(1)).map(|column| column.iter().map(|v| v.abs()).sum()).fold(0.0, f64::max)
 }
 
+/// Condition number in the 1-norm with unknowns in their natural sizes.
+pub(crate) fn weighted_condition(matrix: &[f64], inverse: &[f64], weights: &[f64]) -> f64 {
+    let size = weights.len();
+    if size == 0 {
+        return 1.0;
+    }
+    let columns = matrix.chunks_exact(size).zip(weights);
+    let most = columns.map(|(column, w)| column.iter().map(|v| v.abs()).sum::<f64>() / w).fold(0.0, f64::max);
+    let columns = inverse.chunks_exact(size);
+    let sums = columns.map(|column| column.iter().zip(weights).map(|(v, w)| (v * w).abs()).sum::<f64>());
+    most * sums.fold(0.0, f64::max)
+}
+
 /// `out` = `scale` * `a` `x` for a column-major square matrix.
 pub(crate) fn multiply(a: &[f64], x: &[f64], scale: f64, out: &mut [f64]) {
     out.fill(0.0);

@@ -4,7 +4,9 @@
 #[cfg(feature = "argmin")]
 mod argmin_newton;
 mod brent;
+pub(crate) mod jacobian;
 pub(crate) mod linear;
+mod links;
 mod newton;
 #[cfg(feature = "argmin")]
 mod trust_region;
@@ -12,6 +14,7 @@ mod trust_region;
 #[cfg(feature = "argmin")]
 pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 pub use brent::{Root, find_root};
+pub use links::{Link, Links};
 pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, solve};
 #[cfg(feature = "argmin")]
 pub use trust_region::{Scaled, TrustRegionSearch, TrustRegionState, solve_by_trust_region};

@@ -5,7 +5,8 @@
 //! the trial point, is shorter than the correction itself. Where it is much shorter, the old Jacobian serves on.
 //! [`argmin`](crate::NewtonSolver) drives the same step.
 
-use super::linear::{invert, multiply, norm_1};
+use super::jacobian::Jacobian;
+use super::links::Links;
 
 /// A square system of nonlinear equations F(u) = 0 with its exact Jacobian.
 pub trait System {
@@ -15,6 +16,15 @@ pub trait System {
     /// Writes F(u) and, where asked for, its Jacobian (column-major: dF_i/du_j at `i + j * dimension`). Both come zeroed or
     /// with old content: every entry must be written.
     fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>);
+
+    /// Whether the Jacobian is that of links in a row, which [`evaluate_links`](Self::evaluate_links) writes: then Newton's method costs as much
+    /// as there are links, and asks for the whole matrix only where that is more exact. False by default.
+    fn is_linked(&self) -> bool {
+        false
+    }
+
+    /// Writes F(u), and adds the links of its Jacobian to `links`, which comes empty. Called where [`is_linked`](Self::is_linked) alone.
+    fn evaluate_links(&self, _u: &[f64], _residual: &mut [f64], _links: &mut Links) {}
 
     /// Writes the weight of each unknown in the norm that judges corrections (1 / its natural size). All 1 by default.
     fn weights(&self, _u: &[f64], weights: &mut [f64]) {
@@ -29,6 +39,14 @@ impl<S: System + ?Sized> System for &S {
 
     fn evaluate(&self, u: &[f64], residual: &mut [f64], jacobian: Option<&mut [f64]>) {
         (**self).evaluate(u, residual, jacobian);
+    }
+
+    fn is_linked(&self) -> bool {
+        (**self).is_linked()
+    }
+
+    fn evaluate_links(&self, u: &[f64], residual: &mut [f64], links: &mut Links) {
+        (**self).evaluate_links(u, residual, links);
     }
 
     fn weights(&self, u: &[f64], weights: &mut [f64]) {
@@ -102,8 +120,7 @@ pub struct SolveReport {
 #[derive(Clone, Debug, Default)]
 pub struct NewtonWorkspace {
     residual: Vec<f64>,
-    jacobian: Vec<f64>,
-    inverse: Vec<f64>,
+    jacobian: Jacobian,
     step: Vec<f64>,
     bar: Vec<f64>,
     trial: Vec<f64>,
@@ -132,8 +149,6 @@ impl NewtonWorkspace {
         for v in [&mut self.residual, &mut self.step, &mut self.bar, &mut self.trial, &mut self.weights] {
             v.resize(n, 0.0);
         }
-        self.jacobian.resize(n * n, 0.0);
-        self.inverse.resize(n * n, 0.0);
         system.weights(u, &mut self.weights);
         self.damping = 1.0;
     }
@@ -149,8 +164,9 @@ impl NewtonWorkspace {
     ) -> SolveReport {
         system.evaluate(u, &mut self.residual, None);
         let residual = largest(&self.residual);
-        let condition = self.condition(system.dimension());
-        let lost = status.is_solved() && condition > NO_DIGIT && self.weighted_condition(system.dimension()) > NO_DIGIT;
+        let condition = self.jacobian.condition();
+        let lost =
+            status.is_solved() && condition > NO_DIGIT && self.jacobian.weighted_condition(&self.weights) > NO_DIGIT;
         let status = if lost { SolveStatus::Singular } else { status };
         SolveReport { status, iterations, residual, condition, correction }
     }
@@ -168,7 +184,7 @@ impl NewtonWorkspace {
     ) -> SolveReport {
         let report = self.report(system, u, status, iterations, correction);
         if status == SolveStatus::Converged {
-            multiply(&self.inverse, &self.residual, -1.0, &mut self.bar);
+            self.jacobian.correction(&self.residual, &mut self.bar);
             if self.norm(&self.bar) <= LAST_STEP {
                 add(u, 1.0, &self.bar);
             }
@@ -176,25 +192,13 @@ impl NewtonWorkspace {
         report
     }
 
-    /// The inverse of the Jacobian that the last step used, column-major.
-    pub fn inverse(&self) -> &[f64] {
-        &self.inverse
+    /// Writes the last column of the inverse of the Jacobian that the last step used.
+    pub fn last_column(&self, column: &mut [f64]) {
+        self.jacobian.last_column(column);
     }
 
     fn norm(&self, v: &[f64]) -> f64 {
         largest_of(v.iter().zip(&self.weights).map(|(v, w)| v * w))
-    }
-
-    /// The condition number for unknowns in their natural sizes.
-    fn weighted_condition(&self, n: usize) -> f64 {
-        let columns = self.jacobian.chunks_exact(n).zip(&self.weights);
-        let most = largest_of(columns.map(|(column, w)| column.iter().map(|v| v.abs()).sum::<f64>() / w));
-        let columns = self.inverse.chunks_exact(n);
-        most * largest_of(columns.map(|column| column.iter().zip(&self.weights).map(|(v, w)| (v * w).abs()).sum()))
-    }
-
-    fn condition(&self, n: usize) -> f64 {
-        if n == 0 { 1.0 } else { norm_1(n, &self.jacobian) * norm_1(n, &self.inverse) }
     }
 }
 
@@ -223,13 +227,11 @@ pub fn newton_step(
     options: &NewtonOptions,
     workspace: &mut NewtonWorkspace,
 ) -> StepOutcome {
-    let n = system.dimension();
     let w = workspace;
-    system.evaluate(u, &mut w.residual, Some(&mut w.jacobian));
-    if !invert(n, &w.jacobian, &mut w.inverse) {
+    if !w.jacobian.take(system, u, &mut w.residual) {
         return StepOutcome::Done(SolveStatus::Singular, f64::INFINITY);
     }
-    multiply(&w.inverse, &w.residual, -1.0, &mut w.step);
+    w.jacobian.correction(&w.residual, &mut w.step);
     let (length, before) = (w.norm(&w.step), largest(&w.residual));
     if !length.is_finite() {
         return StepOutcome::Done(SolveStatus::Singular, f64::INFINITY);
@@ -243,7 +245,7 @@ pub fn newton_step(
         w.trial.copy_from_slice(u);
         add(&mut w.trial, damping, &w.step);
         system.evaluate(&w.trial, &mut w.residual, None);
-        multiply(&w.inverse, &w.residual, -1.0, &mut w.bar);
+        w.jacobian.correction(&w.residual, &mut w.bar);
         let simplified = w.norm(&w.bar);
         if simplified <= (1.0 - 0.25 * damping) * length {
             u.copy_from_slice(&w.trial);
@@ -289,7 +291,7 @@ fn chords(
             return StepOutcome::Done(SolveStatus::Converged, simplified);
         }
         system.evaluate(u, &mut w.residual, None);
-        multiply(&w.inverse, &w.residual, -1.0, &mut w.bar);
+        w.jacobian.correction(&w.residual, &mut w.bar);
         (length, simplified) = (simplified, w.norm(&w.bar));
     }
     StepOutcome::Continue(length)

@@ -10,7 +10,8 @@ use super::multipoint::{Hold, MultiPoint, Node, Nodes, Supports, friction_size, 
 use crate::clamp::{Clamp, ClampLaw, Passage, product};
 use crate::model::{Cut, CutSensitivities, RodModel};
 use crate::pose::{Pose, Reactions};
-use crate::solve::linear::{invert, multiply};
+use crate::solve::jacobian::Jacobian;
+use crate::solve::linear::{invert, weighted_condition};
 use smallvec::SmallVec;
 
 /// The change of a support's point and tangent angle per unit of something, at a fixed parameter of its curve.
@@ -96,8 +97,7 @@ pub struct Linearisation {
     passage: Option<Box<Passage>>,
     held: Vec<Held>,
     residual: Vector,
-    jacobian: Vec<f64>,
-    inverse: Vec<f64>,
+    jacobian: Jacobian,
     /// Condition number; infinite where there is no inverse.
     condition: f64,
     weights: Vector,
@@ -141,29 +141,30 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         // one more unknown for each that sticks
         let (count, size) = (nodes.len(), u.len());
         let mut residual = Vector::from_elem(0.0, size);
-        let mut jacobian = vec![0.0; size * size];
+        let mut jacobian = Jacobian::default();
         let mut held = Vec::with_capacity(count);
-        for (j, node) in nodes.iter().enumerate() {
-            let segment = self.segment(&nodes, j, &mut residual, &mut jacobian, size);
-            held.push(Held {
-                node: *node,
-                tangent: self.supports.hold(j) != Hold::Tip,
-                grip: self.supports.grip(j),
-                segment,
+        let hold = |j: usize, segment| Held {
+            node: nodes[j],
+            tangent: self.supports.hold(j) != Hold::Tip,
+            grip: self.supports.grip(j),
+            segment,
+        };
+        let is_eliminated = self.is_linked()
+            && jacobian.take_links(size, |links| {
+                held.extend((0..count).map(|j| hold(j, self.link(&nodes, j, &mut residual, links.add()))));
             });
-        }
-        self.sticking_equations(&nodes, u, &mut residual, &mut jacobian, size);
+        let is_regular = is_eliminated
+            || jacobian.take_matrix(size, |matrix| {
+                held.clear();
+                held.extend((0..count).map(|j| hold(j, self.segment(&nodes, j, &mut residual, matrix, size))));
+                self.sticking_equations(&nodes, u, &mut residual, matrix, size);
+            });
         let mut weights: Vector = nodes.iter().flat_map(|node| natural_sizes(&node.at, node.force)).collect();
         weights.extend(u[3 * count..].iter().map(|friction| friction_size(*friction)));
-        let mut inverse = vec![0.0; size * size];
-        let regular = invert(size, &jacobian, &mut inverse);
         let (base, law) = (self.base_of(&nodes), self.clamp.law().map(Box::new));
-        let (passage, condition) = (self.passage(&nodes).map(Box::new), f64::INFINITY);
-        let mut linear = Linearisation { base, law, passage, held, residual, jacobian, inverse, condition, weights };
-        if regular {
-            linear.condition = weighted_condition(&linear.jacobian, &linear.inverse, &linear.weights);
-        }
-        linear
+        let passage = self.passage(&nodes).map(Box::new);
+        let condition = if is_regular { jacobian.weighted_condition(&weights) } else { f64::INFINITY };
+        Linearisation { base, law, passage, held, residual, jacobian, condition, weights }
     }
 }
 
@@ -277,7 +278,7 @@ impl Linearisation {
             return None;
         }
         let mut unknowns = Vector::from_elem(0.0, rates.len());
-        multiply(&self.inverse, rates, -1.0, &mut unknowns);
+        self.jacobian.correction(rates, &mut unknowns);
         Some(self.node_rates(supports, rubs, Some(&unknowns)))
     }
 
@@ -323,9 +324,7 @@ impl Linearisation {
         let by_path = self.residual_rates(path, &self.still())?;
         let (size, whole) = (by_path.len(), by_path.len() + 1);
         let mut bordered = SmallVec::<[f64; 64]>::from_elem(0.0, whole * whole);
-        for (k, column) in self.jacobian.chunks_exact(size.max(1)).enumerate() {
-            bordered[k * whole..][..size].copy_from_slice(column);
-        }
+        self.jacobian.write(&mut bordered, whole);
         bordered[size * whole..][..size].copy_from_slice(&by_path);
         *bordered.get_mut(unknown * whole + size)? = 1.0;
         let mut inverse = SmallVec::<[f64; 64]>::from_elem(0.0, whole * whole);
@@ -403,19 +402,6 @@ impl Linearisation {
         }
         rates
     }
-}
-
-/// Condition number in the 1-norm with unknowns in their natural sizes.
-fn weighted_condition(matrix: &[f64], inverse: &[f64], weights: &[f64]) -> f64 {
-    let size = weights.len();
-    if size == 0 {
-        return 1.0;
-    }
-    let columns = matrix.chunks_exact(size).zip(weights);
-    let most = columns.map(|(column, w)| column.iter().map(|v| v.abs()).sum::<f64>() / w).fold(0.0, f64::max);
-    let columns = inverse.chunks_exact(size);
-    let sums = columns.map(|column| column.iter().zip(weights).map(|(v, w)| (v * w).abs()).sum::<f64>());
-    most * sums.fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ use crate::elastica::Elastica;
 use crate::model::{Cut, CutSensitivities, RodModel, Uniform, uniform};
 use crate::pose::{Pose, Reactions};
 use crate::segment::Segment;
-use crate::solve::System;
+use crate::solve::{Link, Links, System};
 use crate::units::Units;
 use smallvec::SmallVec;
 
@@ -168,6 +168,10 @@ pub(crate) fn friction_size(friction: f64) -> f64 {
     0.25 / (1.0 + friction.abs())
 }
 
+/// Number of contacts from which on the Jacobian is that of links. The inverse of a smaller matrix has a fixed size and is nearly as fast or
+/// faster, and its rounding is known.
+const LEAST_LINKS: usize = 4;
+
 pub(crate) type Nodes = SmallVec<[Node; 8]>;
 
 impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
@@ -263,41 +267,22 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
         matrix: &mut [f64],
         stride: usize,
     ) -> CutSensitivities {
+        let (end, d) = self.end(nodes, j, residual);
         let node = &nodes[j];
-        let length = self.s_before(nodes, j) - node.s;
-        let (end, d) = match self.clamp.roller() {
-            Some(_) if j == 0 => through_roller(self.passage(nodes)),
-            _ => self.rod.carry_with_sensitivities(node.s, &node.cut(), node.a, node.b, length),
-        };
-        self.residual_of(nodes, j, &end, residual);
         let mut put = |column: usize, v: [f64; 3]| matrix[column * stride + 3 * j..][..3].copy_from_slice(&v);
-        let three = |f: &dyn Fn(usize) -> f64| [f(0), f(1), f(2)];
-
-        // Supports behind: only the one where the segment ends, and its arc length.
         for k in 0..j {
             for column in 3 * k..3 * k + 3 {
                 put(column, [0.0; 3]);
             }
         }
         if j > 0 {
-            let Node { at, sin, cos, .. } = &nodes[j - 1];
-            put(3 * (j - 1), [-at.speed * cos, -at.speed * sin, -at.turning]);
-            put(3 * (j - 1) + 2, [d.by_to[0], d.by_to[1], d.by_to[2]]);
+            let [by_t, by_s] = by_support_behind(&nodes[j - 1], &d);
+            put(3 * (j - 1), by_t);
+            put(3 * (j - 1) + 2, by_s);
         }
-
-        // This support: its point moves the start, its angle turns start and force.
-        let Support { speed, turning, .. } = node.at;
-        let (sin, cos) = (node.sin, node.cos);
-        let [(own_a, own_b), (push_a, push_b)] = node.push(self.supports.grip(j));
-        let (ahead_a, ahead_b) = nodes.get(j + 1).map_or((0.0, 0.0), |k| (k.a, k.b));
-        let moment_by_t = speed * (ahead_a * cos + ahead_b * sin);
-        let tangent = matches!(self.supports.hold(j), Hold::Tangent { .. });
-        let phi_by_t = if tangent { turning } else { 0.0 };
-        let shift = [speed * cos, speed * sin, 0.0];
-        let force_by_t = |i: usize| turning * (own_a * d.by_b[i] - own_b * d.by_a[i]);
-        put(3 * j, three(&|i| shift[i] + phi_by_t * d.by_phi[i] + moment_by_t * d.by_moment[i] + force_by_t(i)));
-        put(3 * j + 1, three(&|i| push_a * d.by_a[i] + push_b * d.by_b[i]));
-        put(3 * j + 2, three(&|i| if tangent { d.by_from[i] } else { d.by_phi[i] }));
+        for (unknown, column) in self.by_own_support(nodes, j, &d).into_iter().enumerate() {
+            put(3 * j + unknown, column);
+        }
 
         // Supports ahead: through the force and the moment they leave here.
         for (k, other) in nodes.iter().enumerate().skip(j + 1) {
@@ -315,6 +300,77 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> MultiPoint<'_, S, M, C> {
             && let Some(law) = self.clamp.law()
         {
             self.give_way(&law, nodes, &end, matrix, stride);
+        }
+        d
+    }
+
+    /// The end of segment j with its derivatives; writes the three equations.
+    #[inline(always)]
+    fn end(&self, nodes: &Nodes, j: usize, residual: &mut [f64]) -> (Cut, CutSensitivities) {
+        let node = &nodes[j];
+        let length = self.s_before(nodes, j) - node.s;
+        let (end, d) = match self.clamp.roller() {
+            Some(_) if j == 0 => through_roller(self.passage(nodes)),
+            _ => self.rod.carry_with_sensitivities(node.s, &node.cut(), node.a, node.b, length),
+        };
+        self.residual_of(nodes, j, &end, residual);
+        (end, d)
+    }
+
+    /// The derivatives of the end of segment j by the unknowns of its own support: its point moves the start, its angle turns start and
+    /// force.
+    #[inline(always)]
+    fn by_own_support(&self, nodes: &Nodes, j: usize, d: &CutSensitivities) -> [[f64; 3]; 3] {
+        let node = &nodes[j];
+        let Support { speed, turning, .. } = node.at;
+        let (sin, cos) = (node.sin, node.cos);
+        let [(own_a, own_b), (push_a, push_b)] = node.push(self.supports.grip(j));
+        let (ahead_a, ahead_b) = nodes.get(j + 1).map_or((0.0, 0.0), |k| (k.a, k.b));
+        let moment_by_t = speed * (ahead_a * cos + ahead_b * sin);
+        let tangent = matches!(self.supports.hold(j), Hold::Tangent { .. });
+        let phi_by_t = if tangent { turning } else { 0.0 };
+        let shift = [speed * cos, speed * sin, 0.0];
+        let force_by_t = |i: usize| turning * (own_a * d.by_b[i] - own_b * d.by_a[i]);
+        [
+            three(&|i| shift[i] + phi_by_t * d.by_phi[i] + moment_by_t * d.by_moment[i] + force_by_t(i)),
+            three(&|i| push_a * d.by_a[i] + push_b * d.by_b[i]),
+            three(&|i| if tangent { d.by_from[i] } else { d.by_phi[i] }),
+        ]
+    }
+
+    /// Whether the Jacobian is that of [links](Links), which [`link`](Self::link) writes, rather than a matrix. A contact that sticks has
+    /// an unknown more than a link.
+    #[inline(always)]
+    pub(crate) fn is_linked(&self) -> bool {
+        self.supports.count() >= LEAST_LINKS && self.sticking().next().is_none()
+    }
+
+    /// Writes the three equations of segment j, and their derivatives as a link; returns those of the segment. The sums over the supports
+    /// ahead are those of their moments about the first support, of A and of B.
+    #[inline(always)]
+    pub(crate) fn link(&self, nodes: &Nodes, j: usize, residual: &mut [f64], link: &mut Link) -> CutSensitivities {
+        let (end, d) = self.end(nodes, j, residual);
+        let (node, first) = (&nodes[j], &nodes[0].at);
+        let (x, y) = (node.at.x - first.x, node.at.y - first.y);
+        let [(own_a, own_b), (push_a, push_b)] = node.push(self.supports.grip(j));
+        let Support { speed, turning, .. } = node.at;
+        *link = Link {
+            own: self.by_own_support(nodes, j, &d),
+            ahead: [
+                three(&|i| d.by_moment[i]),
+                three(&|i| d.by_a[i] + x * d.by_moment[i]),
+                three(&|i| d.by_b[i] + y * d.by_moment[i]),
+            ],
+            before: if j > 0 { by_support_behind(&nodes[j - 1], &d) } else { [[0.0; 3]; 2] },
+            adds: [
+                [turning * (own_b * x - own_a * y) - speed * node.force, -turning * own_b, turning * own_a],
+                [-(push_a * x + push_b * y), push_a, push_b],
+            ],
+        };
+        if j == 0
+            && let Some(law) = self.clamp.law()
+        {
+            give_way(&law, node, &end, link);
         }
         d
     }
@@ -530,6 +586,20 @@ impl<S: Supports + ?Sized, M: RodModel, C: Clamp> System for MultiPoint<'_, S, M
     }
 
     #[inline(always)]
+    fn is_linked(&self) -> bool {
+        self.is_linked()
+    }
+
+    #[inline(never)]
+    fn evaluate_links(&self, u: &[f64], residual: &mut [f64], links: &mut Links) {
+        let mut nodes = Nodes::new();
+        self.nodes(u, &mut nodes);
+        for j in 0..nodes.len() {
+            self.link(&nodes, j, residual, links.add());
+        }
+    }
+
+    #[inline(always)]
     fn weights(&self, u: &[f64], weights: &mut [f64]) {
         let (of_all, of_sticking) = weights.split_at_mut(3 * self.supports.count());
         for (j, w) in of_all.chunks_exact_mut(3).enumerate() {
@@ -552,6 +622,31 @@ fn through_roller(passage: Option<Passage>) -> (Cut, CutSensitivities) {
 /// What the clamp feels where the first segment ends.
 pub(crate) fn reactions(first: &Node, base: &Cut) -> Reactions {
     Reactions { f0x: -first.b, f0y: first.a, m0z: -base.moment }
+}
+
+#[inline(always)]
+fn three(f: &dyn Fn(usize) -> f64) -> [f64; 3] {
+    [f(0), f(1), f(2)]
+}
+
+/// The derivatives of the end of a segment by t and s of the support behind, where it ends: by no other unknown of the supports behind.
+#[inline(always)]
+fn by_support_behind(Node { at, sin, cos, .. }: &Node, d: &CutSensitivities) -> [[f64; 3]; 2] {
+    [[-at.speed * cos, -at.speed * sin, -at.turning], three(&|i| d.by_to[i])]
+}
+
+/// Turns the derivatives of the end of segment 0 into those of the equations of a clamp that gives way, as [`MultiPoint::give_way`]: m(0)
+/// is the sum of the moments about the first support plus the moment of (A, B) about it.
+fn give_way(law: &ClampLaw, node: &Node, base: &Cut, link: &mut Link) {
+    let (dx, dy) = (base.x - node.at.x, base.y - node.at.y);
+    let rates = |[moment, a, b]: [f64; 3]| [a, b, moment + a * dx + b * dy];
+    let [by_t, by_force] = link.adds.map(rates);
+    for (column, rates) in link.own.iter_mut().zip([by_t, by_force, [0.0; 3]]) {
+        give_way_by(law, (node.a, node.b), rates, column);
+    }
+    for (column, unit) in link.ahead.iter_mut().zip([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) {
+        give_way_by(law, (node.a, node.b), rates(unit), column);
+    }
 }
 
 /// One unknown of [`MultiPoint::give_way`], by which A, B and the moment at the base change at these rates: `rows` holds how the end moves.

@@ -253,6 +253,9 @@ impl<M: RodModel> Search<'_, M> {
         }
         let (least, mut touches) = (self.least(), false);
         for ((tangent, sense), (held, j)) in tangents.iter().zip(configuration.contacts.iter().zip(0..)) {
+            if world.object(held.stretch) != self.object {
+                continue;
+            }
             let own = part.ends.iter().position(|end| end.contact == Some(j));
             let height = if known.bend == Bend::Outward { part.least_height(tangent) } else { f64::NEG_INFINITY };
             let clears = height > if own.is_some() { least } else { GATE };

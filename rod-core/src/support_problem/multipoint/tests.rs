@@ -89,6 +89,17 @@ fn the_jacobian_is_the_derivative<C: Clamp>(
     let mut plain = vec![0.0; size];
     problem.evaluate(u, &mut plain, None);
     prop_assert_eq!(&plain, &residual);
+    if problem.sticking().next().is_none() {
+        let (mut links, mut by_links, mut of_links) = (Links::default(), vec![0.0; size], vec![f64::NAN; size * size]);
+        problem.evaluate_links(u, &mut by_links, &mut links);
+        prop_assert_eq!(&by_links, &residual);
+        Links::write(links.links(), &mut of_links, size);
+        let scale = jacobian.iter().fold(1.0_f64, |most, entry| most.max(entry.abs()));
+        for (entry, expected) in of_links.iter().zip(&jacobian) {
+            // rounding: sums of moments about another point
+            prop_assert!((entry - expected).abs() < 1e-13 * scale, "{entry} {expected}");
+        }
+    }
     for column in 0..size {
         let h = 1e-3;
         let mut differences = vec![0.0; size];
