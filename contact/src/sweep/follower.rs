@@ -193,10 +193,7 @@ impl<'a, R: PhysicalRod> Follower<'a, R> {
         };
         let (way, here) = (path.length(), path.at(path.length()));
         self.sweep.stepper.steps_left = self.most_steps;
-        let h = self.sweep.stepper.h;
         self.sweep.set_out(path.into(), Departure::from_end(&self.at));
-        // the next move is mostly like the last one
-        self.sweep.stepper.h = h.max(self.sweep.stepper.h);
         self.sweep.course = Course::to_end(way);
         let share = |tau: f64| (tau / way).min(1.0);
         let mut items = Vec::new();

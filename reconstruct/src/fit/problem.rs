@@ -27,7 +27,7 @@ const VERTEX: f64 = 3.0;
 const LOST: f64 = 368.0;
 /// Residual of a block, standard deviations, from which on the model is on another branch than the rod. Smaller: what is not explained counts as
 /// not reached.
-pub(super) const BRANCH: f64 = 20.0;
+const BRANCH: f64 = 20.0;
 /// Step for derivatives of the correction by the errors, in standard deviations of the budget.
 const STEP: f64 = 1e-6;
 /// Rate of a contact by an offset below which it is left out: cardinal splines fall to a fourth from knot to knot.
@@ -175,8 +175,6 @@ pub(super) struct Fit<'a, R> {
     pub curve: Curve,
     pub blocks: &'a Blocks,
     pub sources: &'a Sources,
-    /// Whether contours are only tried: then the rod is not followed along blocks inside which contacts change.
-    pub is_rough: bool,
     /// Which blocks are to be explained; the others cost as much as if they were not reached.
     pub asked: Vec<bool>,
     /// Standard deviation of the change of curvature over a length of way, 1/m per root of m.
@@ -240,7 +238,7 @@ pub(super) struct Corrected {
 impl Corrected {
     /// Measured less model, in standard deviations of the noise as it was measured: a gain, or a clamp that yields to noisy reactions, must
     /// not make the noise small. `by_pose` are the derivatives of the model.
-    pub fn residual(&self, model: &Vector3<f64>, by_pose: &Matrix3<f64>, block: &Block) -> Vector3<f64> {
+    fn residual(&self, model: &Vector3<f64>, by_pose: &Matrix3<f64>, block: &Block) -> Vector3<f64> {
         let by_noise = self.by_reactions - by_pose * self.pose_by_reactions;
         let residual = self.reactions - model;
         by_noise.try_inverse().map_or(residual, |shown| shown * residual).component_div(&block.sigma)
@@ -330,7 +328,7 @@ impl<'a, R: PhysicalRod> Fit<'a, R> {
         let states = vec![None; blocks.blocks.len()];
         let bend = BEND * rod.units().length.powf(-1.5);
         let asked = vec![true; blocks.blocks.len()];
-        Self { rod, curve, blocks, sources, is_rough: false, asked, bend, states, least: f64::INFINITY, evaluations: 0 }
+        Self { rod, curve, blocks, sources, asked, bend, states, least: f64::INFINITY, evaluations: 0 }
     }
 }
 

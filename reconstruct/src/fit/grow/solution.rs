@@ -42,7 +42,7 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         let curve = Curve::through(&nodes)?;
         let mut x = curve.offsets.clone();
         let mut fit = Fit::new(self.fit.rod, curve, blocks, &self.sources);
-        (fit.states, fit.asked, fit.is_rough) = (states, asked, true);
+        (fit.states, fit.asked) = (states, asked);
         // new contour may bend more than what is known
         fit.bend = fit.bend.max(self.fit.bend);
         if steps > 0 {
