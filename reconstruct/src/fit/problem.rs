@@ -38,7 +38,7 @@ const BEND: f64 = 30.0;
 
 /// What a block costs, where contours are compared, that has this residual or is not reached: on another branch than the rod it is not reached.
 pub(super) fn cost_of(residual: Option<f64>) -> f64 {
-    residual.filter(|residual| *residual < BRANCH).map_or(LOST, |residual| LOSS.excess(residual))
+    residual.filter(|residual| *residual < BRANCH).map_or(LOST, |residual| LOSS.of(residual))
 }
 
 /// What is known of the shared errors before: their sources and standard deviations.

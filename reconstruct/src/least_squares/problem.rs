@@ -23,16 +23,20 @@ impl Loss {
     }
 }
 
+#[cfg(feature = "contact")]
 impl Loss {
-    /// By how much the loss of a residual `z` exceeds its weighted square, the cost that the equations count. With it costs at different
-    /// weights compare.
-    #[cfg(feature = "contact")]
-    pub fn excess(self, z: f64) -> f64 {
-        let loss = match self {
+    /// The loss of a residual `z`: z^2 where it is small.
+    pub fn of(self, z: f64) -> f64 {
+        match self {
             Self::Cauchy(scale) => scale * scale * (z / scale).powi(2).ln_1p(),
             Self::Quartic(scale) => scale * scale * (z / scale).powi(2).atan(),
-        };
-        loss - self.weight(1.0, z) * z * z
+        }
+    }
+
+    /// By how much the loss of a residual `z` exceeds its weighted square, the cost that the equations count. With it costs at different
+    /// weights compare.
+    pub fn excess(self, z: f64) -> f64 {
+        self.of(z) - self.weight(1.0, z) * z * z
     }
 }
 
