@@ -2,7 +2,8 @@
 //!
 //! [`solve`](crate::solve) is the plain loop around the same step and costs less; both give the same iterates.
 
-use super::newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step};
+use super::newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, newton_step};
+use super::system::System;
 use argmin::core::{
     CostFunction, Error, Gradient, Hessian, IterState, Jacobian, KV, Operator, Problem, Solver, TerminationReason,
     TerminationStatus,

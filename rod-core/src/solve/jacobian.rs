@@ -2,7 +2,7 @@
 
 use super::linear::{invert, multiply, norm_1, weighted_condition};
 use super::links::Links;
-use super::newton::System;
+use super::system::System;
 
 /// A regular Jacobian.
 #[derive(Clone, Debug, Default)]

@@ -8,6 +8,7 @@ pub(crate) mod jacobian;
 pub(crate) mod linear;
 mod links;
 mod newton;
+mod system;
 #[cfg(feature = "argmin")]
 mod trust_region;
 
@@ -15,6 +16,7 @@ mod trust_region;
 pub use argmin_newton::{NewtonSolver, NewtonState, RootProblem};
 pub use brent::{Root, find_root};
 pub use links::{Link, Links};
-pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, System, newton_step, solve};
+pub use newton::{NewtonOptions, NewtonWorkspace, SolveReport, SolveStatus, StepOutcome, newton_step, solve};
+pub use system::System;
 #[cfg(feature = "argmin")]
 pub use trust_region::{Scaled, TrustRegionSearch, TrustRegionState, solve_by_trust_region};

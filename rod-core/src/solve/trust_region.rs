@@ -6,7 +6,8 @@
 //! a root.
 
 use super::argmin_newton::RootProblem;
-use super::newton::{NewtonOptions, NewtonWorkspace, SolveReport, System, solve};
+use super::newton::{NewtonOptions, NewtonWorkspace, SolveReport, solve};
+use super::system::System;
 use argmin::core::{Error, Executor, IterState, State};
 use argmin::solver::trustregion::{Steihaug, TrustRegion};
 use nalgebra::{DMatrix, DVector};
