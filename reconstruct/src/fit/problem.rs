@@ -37,7 +37,7 @@ const FAR: f64 = 1e-5;
 const BEND: f64 = 30.0;
 
 /// What a block costs, where contours are compared, that has this residual or is not reached: on another branch than the rod it is not reached.
-pub(super) fn cost_of(residual: Option<f64>) -> f64 {
+fn cost_of(residual: Option<f64>) -> f64 {
     residual.filter(|residual| *residual < BRANCH).map_or(LOST, |residual| LOSS.of(residual))
 }
 
@@ -649,5 +649,21 @@ impl<R: PhysicalRod> Problem for Fit<'_, R> {
             }
         }
         normal
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_block_costs_its_chi_squared_while_that_is_small() {
+        for residual in [0.1, 0.5, 1.0] {
+            let cost = cost_of(Some(residual));
+            assert!((cost / residual.powi(2) - 1.0).abs() < 0.02, "{residual}: {cost}");
+        }
+        // an outlier costs less than its square, and more than what is explained; on another branch as much as what is not reached
+        assert!(cost_of(Some(3.0)) < cost_of(Some(12.0)) && cost_of(Some(12.0)) < 144.0);
+        assert!((cost_of(Some(1000.0)) - LOST).abs() + (cost_of(None) - LOST).abs() < 1e-9);
     }
 }
