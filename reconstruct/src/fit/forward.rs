@@ -118,22 +118,23 @@ impl<R: PhysicalRod> Forward<'_, R> {
     }
 
     /// The mean reactions over the poses `half` before to `half` after that of a state, as a block of samples has where contacts form or let go
-    /// inside it. None where the rod jumps there.
-    pub fn mean_reactions(&self, state: &State, friction: f64, half: [f64; 3]) -> Option<Reactions> {
-        let Reactions { mut f0x, mut f0y, mut m0z } = state.reactions;
+    /// inside it. Without those beyond a jump: the recording shows none there, so that it is small, or the block is not explained.
+    pub fn mean_reactions(&self, state: &State, friction: f64, half: [f64; 3]) -> Reactions {
+        let mut along = vec![state.reactions];
         for sense in [-1.0, 1.0] {
-            let mut follower = self.follower(state, friction)?;
+            let Some(mut follower) = self.follower(state, friction) else { continue };
             for part in 1..=PARTS {
                 let share = sense * (part as f64 - 0.25) / (PARTS as f64 + 0.25);
                 let Pose { x, y, phi } = state.pose;
                 let pose = Pose { x: x + share * half[0], y: y + share * half[1], phi: phi + share * half[2] };
-                follower.to(pose).ok()?;
-                let there = follower.state().reactions;
-                (f0x, f0y, m0z) = (f0x + there.f0x, f0y + there.f0y, m0z + there.m0z);
+                if follower.to(pose).is_err() {
+                    break;
+                }
+                along.push(follower.state().reactions);
             }
         }
-        let count = (2 * PARTS + 1) as f64;
-        Some(Reactions { f0x: f0x / count, f0y: f0y / count, m0z: m0z / count })
+        let mean = |of: fn(&Reactions) -> f64| along.iter().map(of).sum::<f64>() / along.len() as f64;
+        Reactions { f0x: mean(|one| one.f0x), f0y: mean(|one| one.f0y), m0z: mean(|one| one.m0z) }
     }
 
     /// The equilibrium with about these contacts, if the rod can be there.

@@ -1,7 +1,7 @@
 //! The mean reactions of the model over each block of samples.
 
 use super::forward::Forward;
-use super::problem::{Fit, Model};
+use super::problem::{BRANCH, Fit, Model};
 use crate::point::Clamp;
 use nalgebra::Vector3;
 use rod_contact::{Contact, State};
@@ -9,41 +9,39 @@ use rod_core::PhysicalRod;
 
 impl<R: PhysicalRod> Fit<'_, R> {
     /// The mean reactions of each block, dimensionless: those at its mean pose, to second order in its way, and the mean of states along it where contacts
-    /// change. None where the rod jumps inside it.
-    pub fn means(&self, model: &Model) -> Vec<Option<Vector3<f64>>> {
+    /// change. Those tell nothing at a state on another branch than the rod.
+    pub fn means(&self, model: &Model) -> Vec<Vector3<f64>> {
         let Model { curve, objects, states, corrected, .. } = model;
         let (forward, units) = (Forward { rod: self.rod, curve, objects }, self.rod.units());
         let at: Vec<Vector3<f64>> = (0..states.len()).map(|k| self.reactions(k, model)).collect();
         let blocks = &self.blocks.blocks;
-        let mean =
-            |k: usize| {
-                let Some(state) = &states[k] else { return Some(at[k]) };
-                let half = blocks[k].half;
-                if changes_inside(states, k) {
-                    let half = [half.x * units.length, half.y * units.length, half.z];
-                    let mean = forward.mean_reactions(state, corrected[k].friction, half)?;
-                    return Some(Clamp::new(units, state.pose, mean).reactions + model.bend(k, units));
-                }
-                let segment = self.blocks.segment_of(k);
-                let has_neighbours =
-                    k > segment.start && k + 1 < segment.end && states[k - 1].is_some() && states[k + 1].is_some();
-                let beside = has_neighbours.then(|| [k - 1, k, k + 1]);
-                Some(beside.map_or(at[k], |three| {
-                    at[k] + curved(three.map(|i| blocks[i].tau), three.map(|i| at[i]), half.norm())
-                }))
-            };
+        let mean = |k: usize| {
+            let (block, segment) = (&blocks[k], self.blocks.segment_of(k));
+            // a block of one sample is at its place
+            let Some(state) = states[k].as_ref().filter(|_| block.half != Vector3::zeros()) else { return at[k] };
+            let beside = |j: usize| Some((j, states.get(j).filter(|_| segment.contains(&j))?.as_ref()?));
+            let neighbours = [k.checked_sub(1).and_then(beside), beside(k + 1)];
+            if neighbours.into_iter().flatten().all(|(_, other)| is_alike(state, other)) {
+                let [Some(before), Some(after)] = neighbours.map(|one| one.map(|(j, _)| j)) else { return at[k] };
+                let three = [before, k, after];
+                let more = curved(three.map(|i| blocks[i].tau), three.map(|i| at[i]), block.half.norm());
+                return at[k] + more;
+            }
+            if corrected[k].residual(&at[k], &model.by_pose[k], block).norm() > BRANCH {
+                return at[k];
+            }
+            let half = [block.half.x * units.length, block.half.y * units.length, block.half.z];
+            let mean = forward.mean_reactions(state, corrected[k].friction, half);
+            Clamp::new(units, state.pose, mean).reactions + model.bend(k, units)
+        };
         (0..states.len()).map(mean).collect()
     }
 }
 
-/// Whether the contacts of a block, or the pieces of the contour on which they are, are not those of its neighbours: they change inside it.
-fn changes_inside(states: &[Option<State>], block: usize) -> bool {
+/// Whether two states have their contacts on the same pieces of the contour.
+fn is_alike(one: &State, other: &State) -> bool {
     let place = |contact: &Contact| (contact.object, contact.piece, contact.kind);
-    let neighbours = [block.checked_sub(1), Some(block + 1)];
-    let mut others = neighbours.into_iter().flatten().filter_map(|k| states.get(k)?.as_ref());
-    states[block]
-        .as_ref()
-        .is_some_and(|state| others.any(|other| other.contacts.iter().map(place).ne(state.contacts.iter().map(place))))
+    one.contacts.iter().map(place).eq(other.contacts.iter().map(place))
 }
 
 /// The mean over `half` on either side of the second place, less the value there, of the parabola through the values at three places.

@@ -215,7 +215,7 @@ pub fn fit_contour<R: PhysicalRod>(
 /// that the recording asks for, by evidence.
 ///
 /// The fit starts from the contact points that are answered, taken in several ways for a contour, and from those that single contacts would have
-/// wherever there is no answer. The first start that explains the recording wins, else the one of lowest cost.
+/// wherever there is no answer. The first start that explains the recording well wins, else the most probable one.
 ///
 /// # Errors
 /// [`FitError`].
@@ -299,8 +299,8 @@ fn settled<'a, R: PhysicalRod>(rod: &'a R, sources: &'a Sources, mut best: Solve
     best
 }
 
-/// The best fit from some starts: the first that explains the recording well, else the one of lowest cost among those that explain it, or among all. Starts
-/// that first explain a part of it come last, where none explains it, with evaluations of their own.
+/// The best fit from some starts: the first that explains the recording well, else the most probable one of those that explain it, or the one of lowest cost of
+/// all. Starts that first explain a part of it come last, where none explains it, with evaluations of their own.
 fn best_of<'a, R: PhysicalRod>(starts: &'a [Start], mut search: Search<'a, R>) -> Option<(Solved, &'a Blocks)> {
     let (whole, parts): (Vec<&Start>, Vec<&Start>) = starts.iter().partition(|start| start.is_whole());
     let mut best = None;

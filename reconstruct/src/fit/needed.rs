@@ -79,7 +79,7 @@ fn with_fewer_errors<R: PhysicalRod>(
         let fewer = Sources { free: kept.iter().map(|i| sources.free[*i]).collect(), ..sources.clone() };
         let (curve, errors) = best.without(&fixed, &kept)?;
         let mut search = Search { rod, sources: &fewer, errors: &errors, evaluations: AGAIN };
-        let Some(found) = search.continued(&curve, best, blocks) else { continue };
+        let Some(found) = search.unchanged(&curve, best, blocks) else { continue };
         let penalty = found.cost - best.cost + least;
         if found.goodness.explains && penalty < so_far {
             most_probable = Some((penalty, found, fewer));

@@ -21,7 +21,7 @@ pub(super) fn numbers(free: &[bool], are_free: bool) -> Vec<usize> {
 }
 
 /// Logarithm of the number of ways to choose so many of `count`.
-fn log_choices(count: usize, chosen: usize) -> f64 {
+pub(super) fn log_choices(count: usize, chosen: usize) -> f64 {
     (0..chosen).map(|i| (((count - i) as f64) / ((i + 1) as f64)).ln()).sum()
 }
 

@@ -5,7 +5,7 @@ use super::contact_rates::ContactRates;
 use super::curve::Curve;
 use super::forward::{Forward, Place};
 use crate::friction::ANY;
-use crate::least_squares::{Loss, NormalMatrix, Problem};
+use crate::least_squares::{Equations, Loss, NormalMatrix, Problem};
 use crate::phase::Label;
 use crate::pipeline::{Pass, Reconstruction};
 use crate::point::Clamp;
@@ -27,7 +27,7 @@ const VERTEX: f64 = 3.0;
 const LOST: f64 = 368.0;
 /// Residual of a block, standard deviations, from which on the model is on another branch than the rod. Smaller: what is not explained counts as
 /// not reached.
-const BRANCH: f64 = 20.0;
+pub(super) const BRANCH: f64 = 20.0;
 /// Step for derivatives of the correction by the errors, in standard deviations of the budget.
 const STEP: f64 = 1e-6;
 /// Rate of a contact by an offset below which it is left out: cardinal splines fall to a fourth from knot to knot.
@@ -35,6 +35,9 @@ const FAR: f64 = 1e-5;
 
 /// Initial standard deviation of the change of curvature, L^-1.5.
 const BEND: f64 = 30.0;
+
+/// Ratio of two standard deviations of the change of curvature of which one is chosen.
+const BEND_STEP: f64 = 1.25;
 
 /// What a block costs, where contours are compared, that has this residual or is not reached: on another branch than the rod it is not reached.
 fn cost_of(residual: Option<f64>) -> f64 {
@@ -238,7 +241,7 @@ pub(super) struct Corrected {
 impl Corrected {
     /// Measured less model, in standard deviations of the noise as it was measured: a gain, or a clamp that yields to noisy reactions, must
     /// not make the noise small. `by_pose` are the derivatives of the model.
-    fn residual(&self, model: &Vector3<f64>, by_pose: &Matrix3<f64>, block: &Block) -> Vector3<f64> {
+    pub fn residual(&self, model: &Vector3<f64>, by_pose: &Matrix3<f64>, block: &Block) -> Vector3<f64> {
         let by_noise = self.by_reactions - by_pose * self.pose_by_reactions;
         let residual = self.reactions - model;
         by_noise.try_inverse().map_or(residual, |shown| shown * residual).component_div(&block.sigma)
@@ -435,8 +438,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
             let is_known = self.asked[k] && (state.is_some() || self.is_free(k, states));
             let label = state.map_or(Label::Free, |state| Label::of(state.phase().contacts, state.phase().tip));
             explained.labels.push(is_known.then_some(label));
-            let (is_known, model) = (is_known && means[k].is_some(), means[k].unwrap_or_default());
-            let residual = corrected[k].residual(&model, &by_pose[k], block);
+            let residual = corrected[k].residual(&means[k], &by_pose[k], block);
             explained.residuals.push((is_known && !block.is_left_out).then_some(residual));
             explained.unreached += usize::from(self.asked[k] && !is_known && !block.is_left_out);
             explained.others += usize::from(!self.asked[k] && !block.is_left_out);
@@ -558,7 +560,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
             if !self.asked[k] || state.is_none() && !self.is_free(k, states) {
                 return None;
             }
-            let (here, model) = (&corrected[k], means[k].unwrap_or_else(|| self.reactions(k, at)));
+            let (here, model) = (&corrected[k], means[k]);
             let mut by: [Vec<(usize, f64)>; 3] = Default::default();
             let touching = state.filter(|state| !state.contacts.is_empty());
             let by_pose = at.by_pose[k];
@@ -592,13 +594,18 @@ impl<R: PhysicalRod> Fit<'_, R> {
 
     /// The prior alone: the errors by their budget, and changes of curvature.
     pub fn prior(&self, x: &DVector<f64>, curve: &Curve) -> NormalMatrix {
+        self.prior_by(x, curve, |z| Loss::Cauchy(VERTEX).weight(1.0, z))
+    }
+
+    /// The same with these weights of the changes of curvature, by their standard deviations.
+    fn prior_by(&self, x: &DVector<f64>, curve: &Curve, weight: impl Fn(f64) -> f64) -> NormalMatrix {
         let (first, mut prior) = (self.curve.count(), NormalMatrix::empty(x.len()));
         (0..self.sources.free.len()).for_each(|i| prior.add(&[(first + i, 1.0)], x[first + i], 1.0));
         self.curve.sigmas().enumerate().for_each(|(i, sigma)| prior.add(&[(i, 1.0)], x[i], sigma));
         for (value, rates) in curve.bends() {
             let z = value / self.bend;
             let row: Vec<(usize, f64)> = rates.iter().map(|(i, rate)| (*i, rate / self.bend)).collect();
-            prior.add_weighted(&row, z, Loss::Cauchy(VERTEX).weight(1.0, z));
+            prior.add_weighted(&row, z, weight(z));
             prior.cost += Loss::Cauchy(VERTEX).excess(z);
         }
         prior
@@ -620,6 +627,38 @@ impl<R: PhysicalRod> Fit<'_, R> {
             weights += weight;
         }
         if weights > 0.0 { (sum / weights).sqrt() } else { self.bend }
+    }
+
+    /// -2 times the logarithm of the volume of what is known of the unknowns over that of what was known before: the price of each unknown that the recording
+    /// determines, in units of the cost. Both together are -2 times the logarithm of the evidence of a contour, by Laplace's method (MacKay 1992). `equations`
+    /// are those at `x`.
+    pub fn occam(&self, x: &DVector<f64>, curve: &Curve, equations: &NormalMatrix) -> Option<f64> {
+        // a density as it is normalised: without the weights of outliers
+        Some(equations.log_determinant()? - self.prior_by(x, curve, |_| 1.0).log_determinant()?)
+    }
+
+    /// The standard deviation of changes of curvature, not above the present one and not below `least`, of the greatest evidence as far as the equations at `x`
+    /// tell: those of straight parts come down to it slowly by [`Fit::bend_of`].
+    pub fn straightest(&self, x: &DVector<f64>, curve: &Curve, equations: &NormalMatrix, least: f64) -> f64 {
+        let prior = self.prior(x, curve);
+        let (data, slope) = (&equations.matrix - prior.matrix, &equations.gradient - prior.gradient);
+        let penalty = |bend: f64| {
+            let with = Fit { bend, ..self.clone() };
+            let prior = with.prior(x, curve);
+            let all =
+                NormalMatrix { matrix: &data + prior.matrix, gradient: &slope + prior.gradient, cost: prior.cost };
+            Some(all.cost + all.step()?.dot(&all.gradient) + with.occam(x, curve, &all)?)
+        };
+        let smaller =
+            std::iter::successors(Some(self.bend), |bend| Some(bend / BEND_STEP)).take_while(|bend| *bend >= least);
+        let mut best = (f64::INFINITY, self.bend);
+        for bend in smaller {
+            match penalty(bend) {
+                Some(penalty) if penalty < best.0 => best = (penalty, bend),
+                _ => break,
+            }
+        }
+        best.1
     }
 }
 

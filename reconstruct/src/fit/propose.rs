@@ -114,6 +114,20 @@ pub(super) fn sharpened(chains: &[Vec<Node>], touched: &[Vec<bool>], length: f64
     found.into_iter().map(|(_, chains)| chains).collect()
 }
 
+/// Contours of which a vertex is a bend, or a straight way.
+pub(super) fn dulled(chains: &[Vec<Node>]) -> Vec<Vec<Vec<Node>>> {
+    let mut found = Vec::new();
+    for (i, chain) in chains.iter().enumerate() {
+        for k in (0..chain.len()).filter(|k| chain[*k].is_vertex) {
+            let (mut bent, mut straight) = (chains.to_vec(), chains.to_vec());
+            bent[i][k].is_vertex = false;
+            straight[i].remove(k);
+            found.extend([bent, straight]);
+        }
+    }
+    found
+}
+
 /// Nodes of a chain that are touched and bend around the solid, and by how much they turn more than a gentle bend of their way: the sharpest ones
 /// that have no node in common.
 fn bends(chain: &[Node], touched: &[bool], length: f64) -> Vec<(f64, Range<usize>)> {

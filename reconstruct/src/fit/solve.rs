@@ -5,9 +5,9 @@ use super::curve::{Curve, Node};
 use super::finer::finer;
 use super::flatten::flattened;
 use super::grow::{Grown, grown};
-use super::posterior::Posterior;
+use super::posterior::{Posterior, log_choices};
 use super::problem::{Explained, Fit, FreeError, Model, Sources};
-use super::propose::{joined, sharpened};
+use super::propose::{dulled, joined, sharpened};
 use super::simple::{Best, SimpleShape};
 use super::start::Start;
 use super::trim::touched;
@@ -28,10 +28,18 @@ const CHANGES: usize = 10;
 const KEPT: usize = 2;
 /// Decrease of the cost, which is that of chi squared, for which a finer contour is taken. Smaller: nodes for noise.
 const WORTH: f64 = 5.0;
-/// Most contours of which a hollow is straight that are tried at a time.
+/// The same of the evidence of a contour that explains its recording: what the iterations leave.
+const LEAST: f64 = 0.1;
+/// Most contours that are tried at a time of which a hollow is straight, a vertex is a bend, and a bend is a vertex or two parts are one. Larger: more time.
 const HOLLOWS: usize = 6;
-/// Ratio of the costs after and before up to which a contour that was changed is worth more than a rough fit.
+const VERTICES: usize = 12;
+const BENDINGS: usize = 3;
+/// Ratio of standard deviations of changes of curvature below which a straighter contour is tried.
+const STRAIGHTER: f64 = 0.7;
+/// Ratio of the costs after and before up to which a contour that was changed is worth more than a rough fit; the same by difference of the evidence, of one
+/// that explains its recording. Larger: more time.
 const HOPEFUL: f64 = 2.0;
+const ROUGH: f64 = 30.0;
 /// Chi squared per degree of freedom of a rough fit up to which it may soon explain the recording.
 const NEAR: f64 = 1.5;
 /// Smallest and largest standard deviation of the change of curvature, L^-1.5: a contour of the size of a hundred rods, and a vertex at each point.
@@ -73,6 +81,14 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
         Some(self.improved(&mut fit, again))
     }
 
+    /// The same of a contour whose nodes stay.
+    pub fn unchanged(&mut self, curve: &Curve, near: &Solved, blocks: &'a Blocks) -> Option<Solved> {
+        let mut fit = Fit::new(self.rod, curve.clone(), blocks, self.sources);
+        (fit.states, fit.bend) = (near.states.clone(), near.bend);
+        fit.asked.clone_from(&near.asked);
+        self.solved(&mut fit, self.errors, WELL)
+    }
+
     /// The fit at contours that are changed as long as that makes it better.
     fn improved(&mut self, fit: &mut Fit<'_, R>, mut best: Solved) -> Solved {
         // what is far off is changed before it is known well
@@ -108,9 +124,10 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
                 break;
             }
             (fit.curve, fit.states, fit.asked) = (best.curve.clone(), best.states.clone(), best.asked.clone());
-            for (curve, states, asked) in self.change(*change, best, fit) {
+            fit.bend = bend;
+            for (curve, states, asked, bend) in self.change(*change, best, fit) {
                 (fit.curve, fit.states, fit.bend, fit.asked) = (curve, states, bend, asked);
-                let rough = self.solved(fit, &errors, ROUGHLY).filter(|rough| rough.cost < HOPEFUL * best.cost);
+                let rough = self.solved(fit, &errors, ROUGHLY).filter(|rough| rough.is_hopeful(best));
                 let found =
                     rough.and_then(
                         |rough| if rough.is_near_where_asked() { self.refined(fit, &rough) } else { Some(rough) },
@@ -133,8 +150,9 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
         let Begun { mut fit, solved } = begun;
         let blocks = fit.blocks;
         let mut found = self.improved(&mut fit, solved);
+        let is_cut_short = self.evaluations == 0;
         self.evaluations += kept;
-        if found.goodness.explains {
+        if found.goodness.explains && is_cut_short {
             // no other start is needed
             found = self.improved(&mut fit, found);
         }
@@ -158,7 +176,7 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
     /// Contours that a change gives, with states of a contour near by, for a fit that has the contour and the states of `best`.
     fn change(&mut self, change: Change, best: &Solved, fit: &Fit<'_, R>) -> Vec<Changed> {
         let length = self.rod.units().length;
-        let with_states = |curve: Curve| (curve, best.states.clone(), best.asked.clone());
+        let with_states = |curve: Curve| (curve, best.states.clone(), best.asked.clone(), fit.bend);
         let through = |chains: Vec<Vec<Vec<Node>>>, most: usize| {
             chains.iter().take(most).filter_map(|chains| Curve::through(chains)).map(with_states).collect()
         };
@@ -168,17 +186,25 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
                 let (found, evaluations) = grown(fit, errors, &best.curve);
                 self.evaluations = self.evaluations.saturating_sub(evaluations);
                 found
-                    .and_then(|Grown { chains, states, asked }| Some((Curve::through(&chains)?, states, asked)))
+                    .and_then(|Grown { chains, states, asked }| {
+                        Some((Curve::through(&chains)?, states, asked, fit.bend))
+                    })
                     .into_iter()
                     .collect()
             }
+            Change::Straighter if best.straightest < STRAIGHTER * best.bend => {
+                let straighter = |(curve, states, asked, _)| (curve, states, asked, best.straightest);
+                best.curve_anew().map(with_states).map(straighter).into_iter().collect()
+            }
+            Change::Straighter => Vec::new(),
             Change::Flatter => through(flattened(&best.curve, &best.states, length), HOLLOWS),
             Change::Finer => finer(&best.curve, best.seen(fit.blocks), length).map(with_states).into_iter().collect(),
+            Change::Duller => through(dulled(&best.curve.nodes_of_chains()), VERTICES),
             Change::Sharper | Change::Joined => {
                 let chains = best.curve.nodes_of_chains();
                 let touched = touched(&chains, &best.states, length);
                 let changed = if change == Change::Joined { joined } else { sharpened };
-                through(changed(&chains, &touched, length), 1)
+                through(changed(&chains, &touched, length), BENDINGS)
             }
         }
     }
@@ -190,8 +216,8 @@ pub(super) struct Begun<'a, R> {
     pub solved: Solved,
 }
 
-/// A contour, states of one near by, and which blocks are to be explained.
-type Changed = (Curve, Vec<Option<State>>, Vec<bool>);
+/// A contour, states of one near by, which blocks are to be explained, and the standard deviation of changes of curvature.
+type Changed = (Curve, Vec<Option<State>>, Vec<bool>, f64);
 
 /// What may be changed of a contour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -204,17 +230,30 @@ enum Change {
     Finer,
     /// A bend is a vertex.
     Sharper,
+    /// Changes of curvature are smaller.
+    Straighter,
+    /// A vertex is a bend.
+    Duller,
     /// Two parts are one.
     Joined,
 }
 
 impl Change {
-    /// Those that may make a fit better, in the order in which they are tried. A contour that explains its recording may have fewer contacts, and be
-    /// known better.
+    /// Those that may make a fit better, in the order in which they are tried. A contour that explains its recording may be simpler.
     fn of(best: &Solved) -> &'static [Self] {
-        match best.goodness.explains {
-            true => &[Self::Flatter, Self::Finer, Self::Sharper, Self::Joined],
-            false => &[Self::Grown, Self::Finer, Self::Flatter],
+        const SIMPLER: [Change; 7] = [
+            Change::Grown,
+            Change::Flatter,
+            Change::Straighter,
+            Change::Sharper,
+            Change::Duller,
+            Change::Finer,
+            Change::Joined,
+        ];
+        match (best.goodness.explains, best.explained.unreached) {
+            (true, 0) => &SIMPLER[1..],
+            (true, _) => &SIMPLER,
+            (false, _) => &[Self::Grown, Self::Finer, Self::Flatter],
         }
     }
 }
@@ -240,6 +279,10 @@ pub(super) struct Solved {
     x: DVector<f64>,
     pub curve: Curve,
     pub cost: f64,
+    /// -2 times the logarithm of the evidence, but for what all contours have.
+    evidence: f64,
+    /// The standard deviation of changes of curvature of the greatest evidence that is not above that of the fit.
+    straightest: f64,
     covariance: DMatrix<f64>,
     /// Standard deviations of the errors, in those of their budget.
     spread: Vec<f64>,
@@ -280,7 +323,13 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     let spread = covariance.diagonal().iter().skip(count).map(|variance| variance.max(0.0).sqrt()).collect();
     let cost = prior.cost + fit.cost_of(&explained);
     let (asked, bend) = (fit.asked.clone(), fit.bend);
-    Some(Solved { x, curve, asked, cost, covariance, spread, bend, explained, states, goodness })
+    let chains = curve.nodes_of_chains();
+    let inner: Vec<&Node> = chains.iter().flat_map(|chain| &chain[1..chain.len() - 1]).collect();
+    let vertices = inner.iter().filter(|node| node.is_vertex).count();
+    // any number of vertices, and any nodes as these, are equally likely before (Scott and Berger 2010)
+    let evidence = cost + fit.occam(&x, &curve, &equations)? + 2.0 * log_choices(inner.len(), vertices);
+    let straightest = if goodness.explains { fit.straightest(&x, &curve, &equations, bends[0]) } else { bend };
+    Some(Solved { x, curve, asked, cost, evidence, straightest, covariance, spread, bend, explained, states, goodness })
 }
 
 /// The error that is farthest off what is known of it, in standard deviations of its budget: of all, or of a recording. The errors come after `count` other
@@ -291,11 +340,13 @@ fn farthest(x: &DVector<f64>, count: usize, sources: &Sources, recording: Option
 }
 
 impl Solved {
-    /// The order in which fits from different starts are preferred: those that explain, then by their cost.
+    /// The order in which fits from different starts are preferred: those that explain, the most probable first; then the others, by their cost.
     pub fn preferred(&self, other: &Self) -> Ordering {
-        let key = |solved: &Self| (!solved.goodness.explains, solved.cost);
-        let ((a, cost), (b, of_other)) = (key(self), key(other));
-        a.cmp(&b).then(cost.total_cmp(&of_other))
+        match (self.goodness.explains, other.goodness.explains) {
+            (true, true) => self.evidence.total_cmp(&other.evidence),
+            (false, false) => self.cost.total_cmp(&other.cost),
+            (now, then) => then.cmp(&now),
+        }
     }
 
     /// Whether some more steps may explain the recording.
@@ -364,20 +415,26 @@ impl Solved {
         self.explained.labels.iter().flatten().filter(|label| label.several()).count()
     }
 
+    /// Whether this rough fit may come to be preferred to what it was changed from.
+    fn is_hopeful(&self, before: &Self) -> bool {
+        match before.goodness.explains {
+            true => self.evidence < before.evidence + ROUGH,
+            false => self.cost < HOPEFUL * before.cost,
+        }
+    }
+
     /// Whether this is to be preferred to what it was changed from.
     fn is_worth(&self, change: Change, before: &Self) -> bool {
-        let (now, then) = (self.goodness.explains, before.goodness.explains);
-        match change {
-            // fewer contacts explain it as well
-            Change::Flatter => {
+        match (self.goodness.explains, before.goodness.explains) {
+            (true, true) => self.evidence < before.evidence - LEAST,
+            (true, false) => true,
+            (false, true) => false,
+            // fewer contacts explain as much
+            (false, false) if change == Change::Flatter => {
                 let fewer = before.x.len().saturating_sub(self.x.len()) as f64;
-                now >= then && self.several() < before.several() && self.cost < before.cost + WORTH + fewer
+                self.several() < before.several() && self.cost < before.cost + WORTH + fewer
             }
-            // one part has fewer unknowns than two
-            Change::Joined => now && self.cost < before.cost + WORTH,
-            // a vertex has fewer unknowns than a bend
-            Change::Sharper => now && self.cost < before.cost,
-            Change::Grown | Change::Finer => now && !then || now == then && self.cost < before.cost - WORTH,
+            (false, false) => self.cost < before.cost - WORTH,
         }
     }
 

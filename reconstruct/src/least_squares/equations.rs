@@ -60,6 +60,14 @@ impl NormalMatrix {
         -step.dot(&self.gradient) / (1.0 + self.cost)
     }
 
+    /// Logarithm of the determinant of the matrix; none where it is singular.
+    #[cfg(feature = "contact")]
+    pub fn log_determinant(&self) -> Option<f64> {
+        let (scale, scaled) = self.scaled();
+        let root = scaled.cholesky()?;
+        Some(2.0 * (root.l_dirty().diagonal().map(f64::ln).sum() - scale.map(f64::ln).sum()))
+    }
+
     /// The covariance of the unknowns, the inverse of the matrix; none where it is singular.
     pub fn covariance(&self) -> Option<DMatrix<f64>> {
         let (scale, scaled) = self.scaled();

@@ -174,7 +174,8 @@ impl<R: PhysicalRod> Growth<'_, '_, R> {
         let whole = |found: Option<Tried>, is_forwards: bool| {
             let found = found?;
             let Range { start, end } = found.window.range;
-            let halves = (0..HALVES).map(|k| (end - start) >> k).take_while(|some| *some > NEAR + 1);
+            let halves = (1..HALVES).map(|k| (end - start) >> k).take_while(|some| *some > NEAR + 1);
+            let halves = std::iter::once(end - start).chain(halves);
             let parts = halves.map(|some| if is_forwards { start..start + some } else { end - some..end });
             let mut together = parts.filter_map(|part| self.together(now.with(&found, &part), part));
             together.find(|found| found.is_good() && found.cost < cost)
