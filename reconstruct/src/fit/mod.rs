@@ -28,6 +28,7 @@ mod outline;
 mod pair;
 mod piece;
 mod posterior;
+mod prior;
 mod problem;
 mod propose;
 mod simple;

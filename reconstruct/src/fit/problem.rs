@@ -4,13 +4,14 @@ use super::blocks::{Block, Blocks};
 use super::contact_rates::ContactRates;
 use super::curve::Curve;
 use super::forward::{Forward, Place};
+use super::prior::Prior;
 use crate::friction::ANY;
-use crate::least_squares::{Equations, Loss, NormalMatrix, Problem};
+use crate::least_squares::{Loss, NormalMatrix, Problem};
 use crate::phase::Label;
 use crate::pipeline::{Pass, Reconstruction};
 use crate::point::Clamp;
 use crate::systematic::{Correction, Errors, Source, SourceEstimate};
-use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
+use nalgebra::{DVector, Matrix3, Vector2, Vector3};
 use rod_contact::{Contact, Derivatives, Quantity, State};
 use rod_contours::Composite;
 use rod_core::{PhysicalRod, Pose, Reactions, Response, Rod, RodParameter, SupportRate, Units};
@@ -20,8 +21,6 @@ use std::ops::Range;
 /// Scale of Cauchy's loss for the residual of a block, standard deviations. Larger: outliers bend the contour; smaller: a start that is far
 /// off converges slowly.
 const LOSS: Loss = Loss::Cauchy(6.0);
-/// The same for changes of curvature. Larger: vertices are rounded; smaller: noise makes vertices.
-const VERTEX: f64 = 3.0;
 /// Cost of a block that no branch of the model reaches: that of a residual of 1000 standard deviations. Smaller: contours win that lose bad
 /// blocks.
 const LOST: f64 = 368.0;
@@ -35,9 +34,6 @@ const FAR: f64 = 1e-5;
 
 /// Initial standard deviation of the change of curvature, L^-1.5.
 const BEND: f64 = 30.0;
-
-/// Ratio of two standard deviations of the change of curvature of which one is chosen.
-const BEND_STEP: f64 = 1.25;
 
 /// What a block costs, where contours are compared, that has this residual or is not reached: on another branch than the rod it is not reached.
 fn cost_of(residual: Option<f64>) -> f64 {
@@ -591,75 +587,6 @@ impl<R: PhysicalRod> Fit<'_, R> {
         };
         Some((0..self.blocks.blocks.len()).map(row).collect())
     }
-
-    /// The prior alone: the errors by their budget, and changes of curvature.
-    pub fn prior(&self, x: &DVector<f64>, curve: &Curve) -> NormalMatrix {
-        self.prior_by(x, curve, |z| Loss::Cauchy(VERTEX).weight(1.0, z))
-    }
-
-    /// The same with these weights of the changes of curvature, by their standard deviations.
-    fn prior_by(&self, x: &DVector<f64>, curve: &Curve, weight: impl Fn(f64) -> f64) -> NormalMatrix {
-        let (first, mut prior) = (self.curve.count(), NormalMatrix::empty(x.len()));
-        (0..self.sources.free.len()).for_each(|i| prior.add(&[(first + i, 1.0)], x[first + i], 1.0));
-        self.curve.sigmas().enumerate().for_each(|(i, sigma)| prior.add(&[(i, 1.0)], x[i], sigma));
-        for (value, rates) in curve.bends() {
-            let z = value / self.bend;
-            let row: Vec<(usize, f64)> = rates.iter().map(|(i, rate)| (*i, rate / self.bend)).collect();
-            prior.add_weighted(&row, z, weight(z));
-            prior.cost += Loss::Cauchy(VERTEX).excess(z);
-        }
-        prior
-    }
-
-    /// The standard deviation of changes of curvature that explains those of a contour best: the mean of their squares and of what is not
-    /// known of them (one step of expectation maximisation, Dempster, Laird and Rubin 1977), robust against vertices.
-    pub fn bend_of(&self, x: &DVector<f64>, covariance: &DMatrix<f64>) -> f64 {
-        let count = self.curve.count();
-        let Some(curve) = self.curve.moved(x.rows(0, count).into_owned()) else { return self.bend };
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for (value, rates) in curve.bends() {
-            let with = |(i, rate): &(usize, f64)| {
-                rates.iter().map(|(j, other)| rate * covariance[(*i, *j)] * other).sum::<f64>()
-            };
-            let unknown: f64 = rates.iter().map(with).sum();
-            let weight = Loss::Cauchy(VERTEX).weight(1.0, value / self.bend);
-            sum += weight * (value * value + unknown);
-            weights += weight;
-        }
-        if weights > 0.0 { (sum / weights).sqrt() } else { self.bend }
-    }
-
-    /// -2 times the logarithm of the volume of what is known of the unknowns over that of what was known before: the price of each unknown that the recording
-    /// determines, in units of the cost. Both together are -2 times the logarithm of the evidence of a contour, by Laplace's method (MacKay 1992). `equations`
-    /// are those at `x`.
-    pub fn occam(&self, x: &DVector<f64>, curve: &Curve, equations: &NormalMatrix) -> Option<f64> {
-        // a density as it is normalised: without the weights of outliers
-        Some(equations.log_determinant()? - self.prior_by(x, curve, |_| 1.0).log_determinant()?)
-    }
-
-    /// The standard deviation of changes of curvature, not above the present one and not below `least`, of the greatest evidence as far as the equations at `x`
-    /// tell: those of straight parts come down to it slowly by [`Fit::bend_of`].
-    pub fn straightest(&self, x: &DVector<f64>, curve: &Curve, equations: &NormalMatrix, least: f64) -> f64 {
-        let prior = self.prior(x, curve);
-        let (data, slope) = (&equations.matrix - prior.matrix, &equations.gradient - prior.gradient);
-        let penalty = |bend: f64| {
-            let with = Fit { bend, ..self.clone() };
-            let prior = with.prior(x, curve);
-            let all =
-                NormalMatrix { matrix: &data + prior.matrix, gradient: &slope + prior.gradient, cost: prior.cost };
-            Some(all.cost + all.step()?.dot(&all.gradient) + with.occam(x, curve, &all)?)
-        };
-        let smaller =
-            std::iter::successors(Some(self.bend), |bend| Some(bend / BEND_STEP)).take_while(|bend| *bend >= least);
-        let mut best = (f64::INFINITY, self.bend);
-        for bend in smaller {
-            match penalty(bend) {
-                Some(penalty) if penalty < best.0 => best = (penalty, bend),
-                _ => break,
-            }
-        }
-        best.1
-    }
 }
 
 impl<R: PhysicalRod> Problem for Fit<'_, R> {
@@ -671,7 +598,7 @@ impl<R: PhysicalRod> Problem for Fit<'_, R> {
         let Some((rows, Model { curve, states, .. })) = here else {
             return NormalMatrix { cost: f64::INFINITY, ..NormalMatrix::empty(x.len()) };
         };
-        let mut normal = self.prior(x, &curve);
+        let mut normal = Prior::of(x, &curve).at(self.bend);
         let is_counted = |k: &usize| self.asked[*k] && !self.blocks.blocks[*k].is_left_out;
         for row in (0..rows.len()).filter(is_counted).map(|k| &rows[k]) {
             if let Some(Row { residual, by }) = row {

@@ -6,6 +6,7 @@
 use super::curve::Curve;
 use super::family::{Family, Place, ShapeKind, in_order};
 use super::knowledge::Knowledge;
+use super::prior::Prior;
 use super::problem::Fit;
 use super::verdict::{Goodness, UNLIKELY, probability};
 use crate::least_squares::{Damped, NormalMatrix, Problem, iterate};
@@ -180,7 +181,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
 
     /// The cost near the unknowns `x`, which are those of a part and others.
     fn near(&self, x: &DVector<f64>, part: &Part) -> Option<Near> {
-        let (normal, prior) = (self.clone().equations(x), self.prior(x, &part.curve));
+        let (normal, prior) = (self.clone().equations(x), Prior::of(x, &part.curve).at(self.bend));
         let own = &part.unknowns;
         let others: Vec<usize> = (0..x.len()).filter(|i| !own.contains(i)).collect();
         // the smoothness of the part is not asked for
@@ -204,7 +205,7 @@ impl<R: PhysicalRod> Fit<'_, R> {
 
     /// Number of unknowns of a part that the recording determines, not its smoothness alone.
     fn determined(&self, best: &Best<'_>, part: &Part) -> f64 {
-        let told = best.covariance * self.prior(best.x, &part.curve).matrix;
+        let told = best.covariance * Prior::of(best.x, &part.curve).at(self.bend).matrix;
         part.unknowns.iter().map(|i| 1.0 - told[(*i, *i)]).sum()
     }
 

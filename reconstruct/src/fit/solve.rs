@@ -6,6 +6,7 @@ use super::finer::finer;
 use super::flatten::flattened;
 use super::grow::{Grown, grown};
 use super::posterior::{Posterior, log_choices};
+use super::prior::Prior;
 use super::problem::{Explained, Fit, FreeError, Model, Sources};
 use super::propose::{dulled, joined, sharpened};
 use super::simple::{Best, SimpleShape};
@@ -305,7 +306,9 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
         let (at, _) = iterate(fit, x.clone(), Damped::until(effort.settled), effort.steps);
         x = at.x;
         if let Some(covariance) = at.equations.covariance() {
-            fit.bend = fit.bend_of(&x, &covariance).clamp(bends[0], bends[1]);
+            let expected = |curve: Curve| Prior::of(&x, &curve).expected(fit.bend, &covariance);
+            let curve = fit.curve.moved(x.rows(0, count).into_owned());
+            fit.bend = curve.map_or(fit.bend, expected).clamp(bends[0], bends[1]);
         }
     }
     fit.least = f64::INFINITY;
@@ -315,7 +318,8 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     let explained = fit.explained(&model);
     let Model { curve, states, .. } = model;
     // unknowns that the prior alone determines count for nothing
-    let prior = fit.prior(&x, &curve);
+    let known = Prior::of(&x, &curve);
+    let prior = known.at(fit.bend);
     let determined = x.len() as f64 - (&covariance * prior.matrix).trace();
     let farthest = farthest(&x, count, fit.sources, None);
     let goodness = Goodness::of(&explained, &fit.blocks.blocks, determined, farthest);
@@ -327,8 +331,8 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     let inner: Vec<&Node> = chains.iter().flat_map(|chain| &chain[1..chain.len() - 1]).collect();
     let vertices = inner.iter().filter(|node| node.is_vertex).count();
     // any number of vertices, and any nodes as these, are equally likely before (Scott and Berger 2010)
-    let evidence = cost + fit.occam(&x, &curve, &equations)? + 2.0 * log_choices(inner.len(), vertices);
-    let straightest = if goodness.explains { fit.straightest(&x, &curve, &equations, bends[0]) } else { bend };
+    let evidence = cost + known.price(fit.bend, &equations)? + 2.0 * log_choices(inner.len(), vertices);
+    let straightest = if goodness.explains { known.straightest(bend, bends[0], &equations) } else { bend };
     Some(Solved { x, curve, asked, cost, evidence, straightest, covariance, spread, bend, explained, states, goodness })
 }
 
