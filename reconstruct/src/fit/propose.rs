@@ -114,6 +114,18 @@ pub(super) fn sharpened(chains: &[Vec<Node>], touched: &[Vec<bool>], length: f64
     found.into_iter().map(|(_, chains)| chains).collect()
 }
 
+/// Contours with a part less, those first of which the least is touched.
+pub(super) fn without_part(chains: &[Vec<Node>], touched: &[Vec<bool>]) -> Vec<Vec<Vec<Node>>> {
+    if chains.len() < 2 {
+        return Vec::new();
+    }
+    let count = |i: usize| touched[i].iter().filter(|is| **is).count();
+    let mut parts: Vec<usize> = (0..chains.len()).collect();
+    parts.sort_by_key(|i| count(*i));
+    let without = |i| chains.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, chain)| chain.clone()).collect();
+    parts.into_iter().map(without).collect()
+}
+
 /// Contours of which a vertex is a bend, or a straight way.
 pub(super) fn dulled(chains: &[Vec<Node>]) -> Vec<Vec<Vec<Node>>> {
     let mut found = Vec::new();

@@ -8,7 +8,7 @@ use super::grow::{Grown, grown};
 use super::posterior::{Posterior, log_choices};
 use super::prior::Prior;
 use super::problem::{Explained, Fit, FreeError, Model, Sources};
-use super::propose::{dulled, joined, sharpened};
+use super::propose::{dulled, joined, sharpened, without_part};
 use super::simple::{Best, SimpleShape};
 use super::start::Start;
 use super::trim::touched;
@@ -35,6 +35,7 @@ const LEAST: f64 = 0.1;
 const HOLLOWS: usize = 6;
 const VERTICES: usize = 12;
 const BENDINGS: usize = 3;
+const PARTS: usize = 3;
 /// Ratio of standard deviations of changes of curvature below which a straighter contour is tried.
 const STRAIGHTER: f64 = 0.7;
 /// Ratio of the costs after and before up to which a contour that was changed is worth more than a rough fit; the same by difference of the evidence, of one
@@ -201,6 +202,11 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
             Change::Flatter => through(flattened(&best.curve, &best.states, length), HOLLOWS),
             Change::Finer => finer(&best.curve, best.seen(fit.blocks), length).map(with_states).into_iter().collect(),
             Change::Duller => through(dulled(&best.curve.nodes_of_chains()), VERTICES),
+            Change::Fewer => {
+                let chains = best.curve.nodes_of_chains();
+                let touched = touched(&chains, &best.states, length);
+                through(without_part(&chains, &touched), PARTS)
+            }
             Change::Sharper | Change::Joined => {
                 let chains = best.curve.nodes_of_chains();
                 let touched = touched(&chains, &best.states, length);
@@ -235,6 +241,8 @@ enum Change {
     Straighter,
     /// A vertex is a bend.
     Duller,
+    /// A part less.
+    Fewer,
     /// Two parts are one.
     Joined,
 }
@@ -242,8 +250,9 @@ enum Change {
 impl Change {
     /// Those that may make a fit better, in the order in which they are tried. A contour that explains its recording may be simpler.
     fn of(best: &Solved) -> &'static [Self] {
-        const SIMPLER: [Change; 7] = [
+        const SIMPLER: [Change; 8] = [
             Change::Grown,
+            Change::Fewer,
             Change::Flatter,
             Change::Straighter,
             Change::Sharper,
