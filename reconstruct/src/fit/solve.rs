@@ -31,11 +31,10 @@ const KEPT: usize = 2;
 const WORTH: f64 = 5.0;
 /// The same of the evidence of a contour that explains its recording: what the iterations leave.
 const LEAST: f64 = 0.1;
-/// Most contours that are tried at a time of which a hollow is straight, a vertex is a bend, and a bend is a vertex or two parts are one. Larger: more time.
+/// Most contours that are tried at a time of which a hollow is straight, a vertex is a bend, and of each other kind. Larger: more time.
 const HOLLOWS: usize = 6;
 const VERTICES: usize = 12;
-const BENDINGS: usize = 3;
-const PARTS: usize = 3;
+const OTHERS: usize = 3;
 /// Ratio of standard deviations of changes of curvature below which a straighter contour is tried.
 const STRAIGHTER: f64 = 0.7;
 /// Ratio of the costs after and before up to which a contour that was changed is worth more than a rough fit; the same by difference of the evidence, of one
@@ -202,16 +201,15 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
             Change::Flatter => through(flattened(&best.curve, &best.states, length), HOLLOWS),
             Change::Finer => finer(&best.curve, best.seen(fit.blocks), length).map(with_states).into_iter().collect(),
             Change::Duller => through(dulled(&best.curve.nodes_of_chains()), VERTICES),
-            Change::Fewer => {
+            Change::Fewer | Change::Joined | Change::Sharper => {
                 let chains = best.curve.nodes_of_chains();
                 let touched = touched(&chains, &best.states, length);
-                through(without_part(&chains, &touched), PARTS)
-            }
-            Change::Sharper | Change::Joined => {
-                let chains = best.curve.nodes_of_chains();
-                let touched = touched(&chains, &best.states, length);
-                let changed = if change == Change::Joined { joined } else { sharpened };
-                through(changed(&chains, &touched, length), BENDINGS)
+                let changed = match change {
+                    Change::Fewer => without_part(&chains, &touched),
+                    Change::Joined => joined(&chains, &touched, length),
+                    _ => sharpened(&chains, &touched, length),
+                };
+                through(changed, OTHERS)
             }
         }
     }
@@ -253,12 +251,12 @@ impl Change {
         const SIMPLER: [Change; 8] = [
             Change::Grown,
             Change::Fewer,
+            Change::Joined,
             Change::Flatter,
             Change::Straighter,
             Change::Sharper,
             Change::Duller,
             Change::Finer,
-            Change::Joined,
         ];
         match (best.goodness.explains, best.explained.unreached) {
             (true, 0) => &SIMPLER[1..],

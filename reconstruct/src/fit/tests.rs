@@ -464,6 +464,38 @@ fn the_parabolas_of_an_object_are_found() {
     }
 }
 
+/// Parts in front of a flank explained a recording with it, and stayed.
+#[test]
+fn a_part_that_the_recording_does_not_ask_for_is_left_out() {
+    use super::curve::Node;
+    use super::problem::Sources;
+    use super::solve::Search;
+    use super::start::Start;
+    use nalgebra::{DVector, Vector2};
+    let rod = steel();
+    let mut samples = samples(&states(&rod));
+    noisy(&mut samples, 0);
+    let local = reconstruct_passes(&rod, &samples, &AS_IS).unwrap();
+    let blocks = super::Blocks::of(&rod, &samples, &local).unwrap();
+    // in rod lengths, where the parabolas are y = 5 x^2
+    let flank = |vertex: [f64; 2], xs: std::ops::Range<i32>, off: f64| -> Vec<Node> {
+        let at = |x: f64| Vector2::new(vertex[0] + x, vertex[1] + 5.0 * x * x - off);
+        xs.map(|k| Node::smooth(at(0.02 * f64::from(k)), 0.03)).collect()
+    };
+    let [left, right] = [[0.0, 0.0], [0.3, 0.1]];
+    let chains = vec![flank(left, -18..6, 0.0), flank(right, -4..18, 0.0), flank(right, 8..14, 1e-3)];
+    let sources = Sources { known: vec![crate::systematic::Errors::zeros()], ..Sources::default() };
+    let start = Start { asked: vec![true; blocks.blocks.len()], blocks, chains };
+    let mut search =
+        Search { rod: &rod, sources: &sources, errors: &DVector::zeros(0), evaluations: super::MOST_EVALUATIONS };
+    let mut best = None;
+    let begun = search.begun(&start).unwrap();
+    search.improve(begun, &mut best);
+    let (best, _) = best.unwrap();
+    assert!(best.goodness.explains, "{:?}", best.goodness);
+    assert_eq!(best.curve.nodes_of_chains().len(), 2);
+}
+
 #[test]
 fn a_disc_is_known_by_its_centre_and_radius() {
     let rod = steel();
