@@ -118,9 +118,9 @@ impl<R: PhysicalRod> Forward<'_, R> {
     }
 
     /// The mean reactions over the poses `half` before to `half` after that of a state, as a block of samples has where contacts form or let go
-    /// inside it. Without those beyond a jump: the recording shows none there, so that it is small, or the block is not explained.
+    /// inside it. Poses beyond a jump of the rod are left out: a jump inside a block of the recording is small, or the block is not explained.
     pub fn mean_reactions(&self, state: &State, friction: f64, half: [f64; 3]) -> Reactions {
-        let mut along = vec![state.reactions];
+        let (Reactions { mut f0x, mut f0y, mut m0z }, mut count) = (state.reactions, 1.0);
         for sense in [-1.0, 1.0] {
             let Some(mut follower) = self.follower(state, friction) else { continue };
             for part in 1..=PARTS {
@@ -130,11 +130,11 @@ impl<R: PhysicalRod> Forward<'_, R> {
                 if follower.to(pose).is_err() {
                     break;
                 }
-                along.push(follower.state().reactions);
+                let there = follower.state().reactions;
+                (f0x, f0y, m0z, count) = (f0x + there.f0x, f0y + there.f0y, m0z + there.m0z, count + 1.0);
             }
         }
-        let mean = |of: fn(&Reactions) -> f64| along.iter().map(of).sum::<f64>() / along.len() as f64;
-        Reactions { f0x: mean(|one| one.f0x), f0y: mean(|one| one.f0y), m0z: mean(|one| one.m0z) }
+        Reactions { f0x: f0x / count, f0y: f0y / count, m0z: m0z / count }
     }
 
     /// The equilibrium with about these contacts, if the rod can be there.

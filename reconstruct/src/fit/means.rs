@@ -9,7 +9,7 @@ use rod_core::PhysicalRod;
 
 impl<R: PhysicalRod> Fit<'_, R> {
     /// The mean reactions of each block, dimensionless: those at its mean pose, to second order in its way, and the mean of states along it where contacts
-    /// change. Those tell nothing at a state on another branch than the rod.
+    /// change. At a state on another branch than the rod, a mean of its neighbours tells nothing: there it is the state's own.
     pub fn means(&self, model: &Model) -> Vec<Vector3<f64>> {
         let Model { curve, objects, states, corrected, .. } = model;
         let (forward, units) = (Forward { rod: self.rod, curve, objects }, self.rod.units());

@@ -91,7 +91,12 @@ mod tests {
     use super::*;
     use nalgebra::Vector2;
 
-    /// Points on a line, measured with this standard deviation, and how far they are off it.
+    fn line(count: usize) -> Curve {
+        let node = |k: usize| Node::smooth(Vector2::new(0.01 * k as f64, 0.0), 0.03);
+        Curve::through(&[(0..count).map(node).collect()]).unwrap()
+    }
+
+    /// The equations of points that are measured with this standard deviation, and of the prior.
     fn equations(prior: &Prior<'_>, bend: f64, sigma: f64) -> NormalMatrix {
         let mut all = prior.at(bend);
         (0..prior.x.len()).for_each(|i| all.add(&[(i, 1.0)], prior.x[i], sigma));
@@ -100,10 +105,8 @@ mod tests {
 
     #[test]
     fn the_evidence_is_the_density_of_what_was_measured() {
-        let nodes: Vec<Node> = (0..6).map(|k| Node::smooth(Vector2::new(0.01 * f64::from(k), 0.0), 0.03)).collect();
-        let curve = Curve::through(&[nodes]).unwrap();
         let x = DVector::zeros(6);
-        let prior = Prior::of(&x, &curve);
+        let prior = Prior::of(&x, &line(6));
         let sigma = 1e-4;
         for bend in [3.0, 30.0, 300.0] {
             // of 0 at all points: their covariance is that of the prior and of the noise
@@ -116,10 +119,8 @@ mod tests {
 
     #[test]
     fn a_straight_contour_is_known_to_be_straight() {
-        let nodes: Vec<Node> = (0..12).map(|k| Node::smooth(Vector2::new(0.01 * f64::from(k), 0.0), 0.03)).collect();
-        let curve = Curve::through(&[nodes]).unwrap();
         let x = DVector::zeros(12);
-        let prior = Prior::of(&x, &curve);
+        let prior = Prior::of(&x, &line(12));
         let found = prior.straightest(1e3, 1.0, &equations(&prior, 1e3, 1e-4));
         assert!(found < 1.3, "{found}");
     }

@@ -75,19 +75,22 @@ impl<'a, R: PhysicalRod> Search<'a, R> {
 
     /// The fit from a contour near that of a fit which was found, whose states are taken over.
     pub fn continued(&mut self, curve: &Curve, near: &Solved, blocks: &'a Blocks) -> Option<Solved> {
-        let mut fit = Fit::new(self.rod, curve.clone(), blocks, self.sources);
-        (fit.states, fit.bend) = (near.states.clone(), near.bend);
-        fit.asked.clone_from(&near.asked);
+        let mut fit = self.near(curve, near, blocks);
         let again = self.solved(&mut fit, self.errors, ROUGHLY)?;
         Some(self.improved(&mut fit, again))
     }
 
     /// The same of a contour whose nodes stay.
     pub fn unchanged(&mut self, curve: &Curve, near: &Solved, blocks: &'a Blocks) -> Option<Solved> {
+        self.solved(&mut self.near(curve, near, blocks), self.errors, WELL)
+    }
+
+    /// The problem at a contour near that of a fit which was found, whose states are taken over.
+    fn near(&self, curve: &Curve, near: &Solved, blocks: &'a Blocks) -> Fit<'a, R> {
         let mut fit = Fit::new(self.rod, curve.clone(), blocks, self.sources);
         (fit.states, fit.bend) = (near.states.clone(), near.bend);
         fit.asked.clone_from(&near.asked);
-        self.solved(&mut fit, self.errors, WELL)
+        fit
     }
 
     /// The fit at contours that are changed as long as that makes it better.
@@ -334,11 +337,12 @@ fn solve<R: PhysicalRod>(fit: &mut Fit<'_, R>, errors: &DVector<f64>, effort: Ef
     let spread = covariance.diagonal().iter().skip(count).map(|variance| variance.max(0.0).sqrt()).collect();
     let cost = prior.cost + fit.cost_of(&explained);
     let (asked, bend) = (fit.asked.clone(), fit.bend);
-    let chains = curve.nodes_of_chains();
-    let inner: Vec<&Node> = chains.iter().flat_map(|chain| &chain[1..chain.len() - 1]).collect();
-    let vertices = inner.iter().filter(|node| node.is_vertex).count();
+    // vertices are nodes between the ends of a chain
+    let nodes = || curve.chains().flatten().map(|(_, node)| node);
+    let (inner, vertices) =
+        (nodes().count() - 2 * curve.chains().count(), nodes().filter(|node| node.is_vertex).count());
     // any number of vertices, and any nodes as these, are equally likely before (Scott and Berger 2010)
-    let evidence = cost + known.price(fit.bend, &equations)? + 2.0 * log_choices(inner.len(), vertices);
+    let evidence = cost + known.price(fit.bend, &equations)? + 2.0 * log_choices(inner, vertices);
     let straightest = if goodness.explains { known.straightest(bend, bends[0], &equations) } else { bend };
     Some(Solved { x, curve, asked, cost, evidence, straightest, covariance, spread, bend, explained, states, goodness })
 }
