@@ -85,7 +85,7 @@ fn several(fit: &ContourFit, states: &[State]) -> (usize, usize) {
 /// Labels but for those next to a transition, points within their standard deviations, at least `within_two` of them within two, and forces.
 fn answers_are_true(found: &Reconstruction, states: &[State], within_two: f64) {
     let truth = |k: usize| Label::of(states[k].phase().contacts, states[k].phase().tip);
-    let (mut wrong, mut expected, mut ratios) = (0, 0.0, Vec::new());
+    let (mut wrong, mut expected, mut doubtful, mut ratios) = (0, 0.0, 0, Vec::new());
     for (k, (reading, state)) in found.readings.iter().zip(states).enumerate() {
         expected += 1.0 - reading.probability;
         if reading.label != truth(k) {
@@ -97,13 +97,10 @@ fn answers_are_true(found: &Reconstruction, states: &[State], within_two: f64) {
             let (sin, cos) = touch.alpha.sin_cos();
             let off = ((touch.x - contact.x) * sin - (touch.y - contact.y) * cos).abs();
             ratios.push(off / touch.sigma_normal());
-            // a second contact that begins some samples too late; what is more likely wrong than not promises no force
-            assert!(
-                (touch.force - contact.load().force).abs() < 0.03 || reading.probability < 0.5,
-                "sample {k}: {} N for {}",
-                touch.force,
-                contact.force
-            );
+            // a second contact that begins some samples too late: such a label is more likely wrong than not, and there are few
+            let is_off = (touch.force - contact.load().force).abs() >= 0.03;
+            assert!(!is_off || reading.probability < 0.5, "sample {k}: {} N for {}", touch.force, contact.force);
+            doubtful += usize::from(is_off);
         }
     }
     let share = |most: f64| ratios.iter().filter(|ratio| **ratio < most).count() as f64 / ratios.len() as f64;
@@ -114,6 +111,8 @@ fn answers_are_true(found: &Reconstruction, states: &[State], within_two: f64) {
         share(2.0),
         share(3.0)
     );
+    println!("{doubtful} forces are off by 0.03 N and more");
+    assert!(doubtful <= 3, "{doubtful}");
     // a transition that is off makes a whole run of labels wrong
     assert!(
         f64::from(wrong) < 2.5 * expected && share(2.0) > within_two && share(4.0) > 0.99,
